@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arguments.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+
+namespace pgdr::app {
+
+namespace {
+
+/// Whether all of `text` is one number, which goes to `value`. Independent of the locale.
+template <class Number>
+bool read_all(std::string_view text, Number& value) {
+  const char* end = text.data() + text.size();
+  const auto [position, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && position == end;
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  // Neither need exist yet.
+  const auto canonical = [](const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  return canonical(a) == canonical(b);
+}
+
+}  // namespace
+
+double parse_number(const std::string& option, const std::string& text) {
+  double value = 0;
+  if (!read_all(text, value) || std::isnan(value))
+    throw Usage_error(option + ": '" + text + "' is not a number");
+  return value;
+}
+
+double parse_positive(const std::string& option, const std::string& text) {
+  const double value = parse_number(option, text);
+  if (!(value > 0) || std::isinf(value))
+    throw Usage_error(option + " must be a positive number, not " + text);
+  return value;
+}
+
+double parse_tolerance(const std::string& option, const std::string& text) {
+  const double value = parse_number(option, text);
+  if (!(value >= 0 && value < 1))
+    throw Usage_error(option + " must be from 0 to less than 1, a part of the bounding box's diagonal, not " +
+                      text);
+  return value;
+}
+
+double parse_ratio_bound(const std::string& option, const std::string& text) {
+  const double value = parse_positive(option, text);
+  if (value < 2)
+    throw Usage_error(option + " must be at least 2, because no smaller bound is sure to be reached, not " +
+                      text);
+  return value;
+}
+
+std::size_t parse_count(const std::string& option, const std::string& text) {
+  std::size_t value = 0;
+  if (!read_all(text, value) || value == 0)
+    throw Usage_error(option + " must be a whole number of at least 1, not " + text);
+  return value;
+}
+
+Sizing_box parse_sizing_box(const std::string& text) {
+  const auto fail = [&text](const std::string& why) -> Usage_error {
+    return Usage_error("--refine-box: '" + text + "' " + why);
+  };
+  const std::string form = "is not of the form x0,y0,z0,x1,y1,z1:R";
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw fail(form);
+  std::string_view corners(text.data(), colon);
+  std::array<double, 6> c{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::size_t comma = i < 5 ? corners.find(',') : corners.size();
+    if (comma == std::string_view::npos || !read_all(corners.substr(0, comma), c[i])) throw fail(form);
+    corners.remove_prefix(std::min(comma + 1, corners.size()));
+    if (!std::isfinite(c[i])) throw fail("has a corner that is not finite");
+  }
+  Sizing_box box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, 0};
+  if (!read_all(std::string_view(text).substr(colon + 1), box.radius)) throw fail(form);
+  if (!(box.radius > 0) || std::isinf(box.radius)) throw fail("has a size R that is not positive");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(box.lower[axis] < box.upper[axis]))
+      throw fail("is empty: the first corner must be below the second one");
+  }
+  return box;
+}
+
+void require_extension(const std::string& option, const std::filesystem::path& path,
+                       const std::vector<std::string>& extensions) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  std::string known;
+  for (const std::string& e : extensions) {
+    if (extension == e) return;
+    known += (known.empty() ? "" : " or ") + e;
+  }
+  throw Usage_error(option + ": '" + path.string() + "' does not end in " + known);
+}
+
+void require_distinct_files(const std::vector<std::filesystem::path>& inputs,
+                            const std::vector<std::filesystem::path>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const auto& input : inputs) {
+      if (same_file(input, outputs[i]))
+        throw Usage_error("'" + outputs[i].string() + "' is the input and would be overwritten");
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (same_file(outputs[j], outputs[i]))
+        throw Usage_error("'" + outputs[i].string() + "' is named as output twice");
+    }
+  }
+}
+
+}  // namespace pgdr::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_APPS_ARGUMENTS_H
+#define PGDR_APPS_ARGUMENTS_H
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <pgdr/sizing/box_sizing_field.h>
+
+namespace pgdr::app {
+
+/// Options that parse but make no sense; `what()` is one sentence that names the option.
+class Usage_error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The number in the option's text. Throws `Usage_error` unless all of it is a decimal number other than NaN.
+double parse_number(const std::string& option, const std::string& text);
+
+/// `parse_number`, which must be positive and finite.
+double parse_positive(const std::string& option, const std::string& text);
+
+/// A relative tolerance: `parse_number`, from 0 to less than 1.
+double parse_tolerance(const std::string& option, const std::string& text);
+
+/// A bound that the mesher is asked for: `parse_number`, at least 2 and finite.
+double parse_ratio_bound(const std::string& option, const std::string& text);
+
+/// A whole number, at least 1.
+std::size_t parse_count(const std::string& option, const std::string& text);
+
+/// The value of `--refine-box`: "x0,y0,z0,x1,y1,z1:R" with x0 < x1, y0 < y1, z0 < z1 and R > 0.
+Sizing_box parse_sizing_box(const std::string& text);
+
+/// Throws `Usage_error` unless `path` ends in one of `extensions`, like ".vtu" (in any case).
+void require_extension(const std::string& option, const std::filesystem::path& path,
+                       const std::vector<std::string>& extensions);
+
+/// Throws `Usage_error` if two of `outputs` are one file, or one of them is one of `inputs`.
+void require_distinct_files(const std::vector<std::filesystem::path>& inputs,
+                            const std::vector<std::filesystem::path>& outputs);
+
+}  // namespace pgdr::app
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pgdr/io/medit.h>
+#include <pgdr/quality/check_mesh.h>
+
+#include "arguments.h"
+#include "command.h"
+#include "exit_code.h"
+#include "read_domain.h"
+
+namespace pgdr::app {
+
+namespace {
+
+struct Check_arguments {
+  std::string mesh;
+  std::string plc;
+  std::string radius_edge_ratio;
+  Domain_options domain;
+};
+
+int run_check(const Check_arguments& arguments) {
+  Check_options options;
+  if (!arguments.radius_edge_ratio.empty())
+    options.radius_edge_ratio = parse_positive("--radius-edge-ratio", arguments.radius_edge_ratio);
+  arguments.domain.tolerance();  // nonsense is refused even where it is not needed
+  require_extension("MESH", arguments.mesh, {".mesh"});
+
+  std::optional<Domain> domain;
+  if (!arguments.plc.empty()) {
+    domain = understand(read_input(arguments.plc, arguments.domain), arguments.domain);
+    print_or_throw(find_problems(*domain));
+  }
+  const std::vector<Check_line> lines =
+      check_mesh(read_medit(arguments.mesh), domain ? &*domain : nullptr, options);
+  for (const Check_line& line : lines) {
+    std::cout << (line.passed ? "ok    " : "FAIL  ") << std::left << std::setw(15) << line.property << "  "
+              << line.detail << '\n';
+  }
+  const auto failed =
+      std::count_if(lines.begin(), lines.end(), [](const Check_line& line) { return !line.passed; });
+  if (failed == 0) {
+    std::cout << "all " << lines.size() << " properties hold\n";
+  } else {
+    std::cout << failed << " of " << lines.size() << " properties fail\n";
+  }
+  return failed == 0 ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+Command add_check_command(CLI::App& program) {
+  const auto arguments = std::make_shared<Check_arguments>();
+  CLI::App* parser = program.add_subcommand("check", "Verify a written mesh, property by property");
+  parser->add_option("MESH", arguments->mesh, "A .mesh file")->required()->type_name("");
+  parser
+      ->add_option("--plc", arguments->plc,
+                   "The input that it was made from: verify that the mesh conforms to it")
+      ->type_name("INPUT");
+  parser
+      ->add_option("--radius-edge-ratio", arguments->radius_edge_ratio,
+                   "Bound of circumradius over shortest edge to verify (default 2)")
+      ->type_name("B");
+  arguments->domain.add_to(*parser);
+  return {parser, [arguments] { return run_check(*arguments); }};
+}
+
+}  // namespace pgdr::app

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pgdr/io/atomic_file.h>
+#include <pgdr/io/write_mesh.h>
+#include <pgdr/mesh/indexed_mesh_3.h>
+#include <pgdr/parameters.h>
+#include <pgdr/quality/mesh_quality.h>
+#include <pgdr/refine_mesh_3.h>
+#include <pgdr/report/peak_memory.h>
+#include <pgdr/report/phase_timer.h>
+#include <pgdr/report/progress_line.h>
+#include <pgdr/report/run_summary.h>
+#include <pgdr/sizing/box_sizing_field.h>
+
+#include "arguments.h"
+#include "command.h"
+#include "exit_code.h"
+#include "interrupt.h"
+#include "messages.h"
+#include "read_domain.h"
+#include "stats_file.h"
+
+namespace pgdr::app {
+
+namespace {
+
+/// The command line as typed.
+struct Mesh_arguments {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string size;
+  std::vector<std::string> refine_boxes;
+  std::string radius_edge_ratio;
+  std::string min_edge_length;
+  std::string max_vertices;
+  std::string threads;
+  std::string stats;
+  bool ignore_region_sizes = false;
+  bool verify = false;
+  bool quiet = false;
+  Domain_options domain;
+};
+
+void add_options(CLI::App& parser, Mesh_arguments& arguments) {
+  parser
+      .add_option("INPUT", arguments.input,
+                  "A PLC (.poly, .smesh) or a closed surface (.off, .stl, .ply, .obj)")
+      ->required()
+      ->type_name("");
+  parser.add_option("-o,--output", arguments.outputs, "File to write, .vtu or .mesh; repeatable")
+      ->required()
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  parser.add_option("--size", arguments.size, "Upper bound of the circumradius of every tetrahedron")
+      ->type_name("R");
+  parser
+      .add_option(
+          "--refine-box", arguments.refine_boxes,
+          "Upper bound R of the circumradius inside a box, as x0,y0,z0,x1,y1,z1:R; repeatable, the smallest "
+          "bound wins")
+      ->type_name("BOX:R")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--radius-edge-ratio", arguments.radius_edge_ratio,
+                  "Upper bound of circumradius over shortest edge, at least 2 (default 2)")
+      ->type_name("B");
+  arguments.domain.add_to(parser);
+  parser.add_flag("--ignore-region-sizes", arguments.ignore_region_sizes,
+                  "Leave out the volume bounds of the input's regions");
+  parser
+      .add_option("--min-edge-length", arguments.min_edge_length,
+                  "Make no edge shorter than this by choice (default: 1e-9 of the bounding box's diagonal)")
+      ->type_name("L");
+  parser
+      .add_option("--max-vertices", arguments.max_vertices, "Stop at this many vertices (default: no limit)")
+      ->type_name("N");
+  parser.add_option("--threads", arguments.threads, "Number of threads; this version uses one")
+      ->type_name("N");
+  parser.add_flag("--verify", arguments.verify, "Run CGAL's is_valid() on the triangulation when it is done");
+  parser.add_flag("--quiet", arguments.quiet, "No progress line and no summary");
+  parser.add_option("--stats", arguments.stats, "Write the summary as JSON")->type_name("FILE");
+}
+
+Command_line_sizing sizing_field(const Mesh_arguments& arguments) {
+  Uniform_sizing_field base;
+  if (!arguments.size.empty()) base = Uniform_sizing_field(parse_positive("--size", arguments.size));
+  std::vector<Sizing_box> boxes;
+  for (const std::string& box : arguments.refine_boxes) boxes.push_back(parse_sizing_box(box));
+  return Command_line_sizing(base, std::move(boxes));
+}
+
+Parameters parameters(const Mesh_arguments& arguments) {
+  Parameters p;
+  if (!arguments.radius_edge_ratio.empty())
+    p.radius_edge_ratio = parse_ratio_bound("--radius-edge-ratio", arguments.radius_edge_ratio);
+  p.coplanar_tolerance = arguments.domain.tolerance();
+  p.triangulate_facets = arguments.domain.triangulate;
+  p.ignore_region_sizes = arguments.ignore_region_sizes;
+  if (!arguments.min_edge_length.empty())
+    p.min_edge_length = parse_positive("--min-edge-length", arguments.min_edge_length);
+  if (!arguments.max_vertices.empty()) p.max_vertices = parse_count("--max-vertices", arguments.max_vertices);
+  if (!arguments.threads.empty()) parse_count("--threads", arguments.threads);
+  p.verify = arguments.verify;
+  return p;
+}
+
+/// Everything that can be found out before the work starts.
+void check_outputs(const Mesh_arguments& arguments) {
+  for (const std::string& output : arguments.outputs) require_extension("-o", output, {".vtu", ".mesh"});
+  std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
+  if (!arguments.stats.empty()) files.emplace_back(arguments.stats);
+  require_distinct_files({arguments.input}, files);
+  for (const auto& file : files) check_writable(file);
+}
+
+int run_mesh(const Mesh_arguments& arguments) {
+  const Command_line_sizing sizing = sizing_field(arguments);
+  Parameters p = parameters(arguments);
+  check_outputs(arguments);
+
+  Phase_timer timer;
+  Progress_line progress(!arguments.quiet);
+  progress.show("reading " + arguments.input);
+  std::optional<Domain> domain;
+  {
+    const Plc plc = read_input(arguments.input, arguments.domain);
+    timer.end_phase("reading");
+    progress.show("checking the input");
+    domain = understand(plc, arguments.domain);
+  }
+  const Problems problems = find_problems(*domain);
+  progress.erase();
+  print_or_throw(problems);
+  timer.end_phase("validation");
+
+  Run_summary run;
+  Indexed_mesh_3 mesh;
+  const Interrupt_guard interrupt;
+  p.cancel = &interrupt.flag();
+  p.progress = [&progress](const Progress& now) { progress.update(now); };
+  {
+    auto refined = refine_mesh_3(std::move(*domain), sizing, p);
+    const Run_statistics& statistics = refined.statistics();
+    run.stop = statistics.stop;
+    run.stop_message = statistics.stop_message;
+    run.steiner_points = statistics.steiner_points;
+    run.unrecovered = statistics.unrecovered;
+    timer.end_phases(statistics.seconds);
+    progress.show("numbering");
+    mesh = indexed_mesh_3(std::move(refined));
+  }
+  timer.end_phase("numbering");
+  run.quality = mesh_quality(mesh);
+  run.checksum = mesh_checksum(mesh);
+  run.exempt_tetrahedra = mesh.exempt.size();
+  timer.end_phase("measuring");
+  for (const std::string& output : arguments.outputs) {
+    progress.show("writing " + output);
+    write_mesh(mesh, output);
+  }
+  progress.erase();
+  timer.end_phase("writing");
+
+  run.seconds = timer.seconds();
+  run.total_seconds = timer.total_seconds();
+  run.peak_memory_bytes = peak_memory_bytes();
+  if (!arguments.stats.empty()) write_stats(run, arguments.stats);
+  if (!arguments.quiet) print_summary(std::cout, run);
+  if (run.stop == Stop_reason::finished) return exit_done;
+  print_message(run.stop_message.empty() ? std::string("stopped: ") + stop_reason_name(run.stop)
+                                         : run.stop_message);
+  return exit_stopped;
+}
+
+}  // namespace
+
+Command add_mesh_command(CLI::App& program) {
+  const auto arguments = std::make_shared<Mesh_arguments>();
+  CLI::App* parser = program.add_subcommand("mesh", "Mesh a piecewise linear complex");
+  add_options(*parser, *arguments);
+  return {parser, [arguments] { return run_mesh(*arguments); }};
+}
+
+}  // namespace pgdr::app

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include <CGAL/assertions.h>
+#include <CGAL/assertions_behaviour.h>
+#include <CGAL/exceptions.h>
+
+#include <pgdr/domain/input_error.h>
+#include <pgdr/io/output_error.h>
+
+#include "arguments.h"
+#include "command.h"
+#include "exit_code.h"
+#include "messages.h"
+
+namespace pgdr::app {
+
+namespace {
+
+/// CGAL reports a failed assertion to this before it throws; by default it would print several lines.
+void say_nothing(const char*, const char*, const char*, int, const char*) {}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App program(
+      "Delaunay refinement: tetrahedral meshes of guaranteed quality from piecewise linear complexes.",
+      "pgdr");
+  program.set_version_flag("--version", "pgdr " PGDR_VERSION);
+  program.require_subcommand(0, 1);  // none is reported below, in our own words
+  const std::array<Command, 3> commands{add_mesh_command(program), add_check_command(program),
+                                        add_info_command(program)};
+  program.footer(
+      "Exit codes: 0 done, 1 failed, 2 usage, 3 bad input, 4 stopped by a limit or Ctrl-C (the mesh is "
+      "valid).");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    return program.exit(request);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    throw Usage_error(std::string(error.what()) + " (--help tells what is possible)");
+  }
+  for (const Command& command : commands) {
+    if (command.parser->parsed()) return command.run();
+  }
+  throw Usage_error("no command given: mesh, check or info (--help tells what is possible)");
+}
+
+int report(int exit_code, const std::string& message) {
+  print_message(message);
+  return exit_code;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  CGAL::set_error_handler(say_nothing);
+  CGAL::set_warning_handler(say_nothing);
+  CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION);
+  try {
+    const int exit_code = parse_and_run(argc, argv);
+    std::cout.flush();
+    if (!std::cout) return report(exit_failed, "cannot write to the standard output");
+    return exit_code;
+  } catch (const Usage_error& error) {
+    return report(exit_usage, error.what());
+  } catch (const Input_error& error) {
+    if (error.problems().empty()) return report(exit_bad_input, error.what());
+    print_problems(error.problems());
+    return exit_bad_input;
+  } catch (const Output_error& error) {
+    return report(exit_failed, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(exit_failed, "the memory is exhausted; a larger --size, or --max-vertices, needs less");
+  } catch (const CGAL::Failure_exception& error) {
+    return report(exit_failed, "internal error, please report it with the input: '" + error.expression() +
+                                   "' fails at " + error.filename() + ":" +
+                                   std::to_string(error.line_number()));
+  } catch (const std::exception& error) {
+    return report(exit_failed, error.what());
+  } catch (...) {
+    return report(exit_failed, "unknown internal error");
+  }
+}
+
+}  // namespace pgdr::app

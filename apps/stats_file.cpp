@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stats_file.h"
+
+#include <cinttypes>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include <pgdr/io/atomic_file.h>
+
+namespace pgdr::app {
+
+std::string stats_json(const Run_summary& run) {
+  using Json = nlohmann::ordered_json;
+  const Mesh_quality& quality = run.quality;
+  // In hexadecimal: a JSON number may lose bits of it.
+  char checksum[17];
+  std::snprintf(checksum, sizeof checksum, "%016" PRIx64, run.checksum);
+
+  Json seconds = Json::object();
+  for (const auto& [phase, value] : run.seconds) seconds[phase] = value;
+  seconds["total"] = run.total_seconds;
+
+  Json regions = Json::array();
+  for (const auto& [id, count] : quality.region_tetrahedra) {
+    const auto volume = quality.region_volumes.find(id);
+    regions.push_back({{"id", id},
+                       {"tetrahedra", count},
+                       {"volume", volume == quality.region_volumes.end() ? 0.0 : volume->second}});
+  }
+
+  const Json json = {{"vertices", quality.vertices},
+                     {"tetrahedra", quality.tetrahedra},
+                     {"triangles", quality.triangles},
+                     {"edges", quality.edges},
+                     {"steiner_points", run.steiner_points},
+                     {"max_radius_edge_ratio", quality.max_radius_edge_ratio},
+                     {"mean_radius_edge_ratio", quality.mean_radius_edge_ratio},
+                     {"max_circumradius", quality.max_circumradius},
+                     {"min_dihedral_deg", quality.min_dihedral_deg},
+                     {"exempt_tetrahedra", run.exempt_tetrahedra},
+                     {"unrecovered", run.unrecovered},
+                     {"threads", run.threads},
+                     {"seconds", seconds},
+                     {"peak_memory_bytes", run.peak_memory_bytes},
+                     {"mesh_checksum", checksum},
+                     {"stop", stop_reason_name(run.stop)},
+                     {"stop_message", run.stop_message},
+                     {"regions", regions}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_stats(const Run_summary& run, const std::filesystem::path& path) {
+  Atomic_file file(path);
+  file.write(stats_json(run));
+  file.commit();
+}
+
+}  // namespace pgdr::app

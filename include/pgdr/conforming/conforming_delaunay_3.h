@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_CONFORMING_DELAUNAY_3_H
+#define PGDR_CONFORMING_CONFORMING_DELAUNAY_3_H
+
+#include <cstdint>
+
+#include <pgdr/conforming/cocircular_polygon_3.h>
+#include <pgdr/conforming/feature_refiner_3.h>
+#include <pgdr/conforming/initial_complex_3.h>
+#include <pgdr/conforming/presence_3.h>
+
+namespace pgdr {
+
+namespace internal {
+
+/// Queues a present subsegment that some vertex encroaches. If the ball holds any vertex, it holds one of the link.
+template <class Tr>
+void queue_if_encroached_subsegment(const Tr& tr, Feature_refiner_3<Tr>& refiner, std::uint32_t slot) {
+  const auto& s = refiner.complex().subsegment(slot);
+  typename Tr::Cell_handle c;
+  int i, j;
+  if (!tr.is_edge(s.vertices[0], s.vertices[1], c, i, j)) return;
+  auto around = tr.incident_cells(c, i, j), done = around;
+  do {
+    for (int k = 0; k < 4; ++k) {
+      const auto v = around->vertex(k);
+      if (tr.is_infinite(v) || !encroaches(refiner.complex(), s, v)) continue;
+      refiner.request_subsegment(slot, Split_reason::encroached, refiner.floor_of(v));
+      return;
+    }
+  } while (++around != done);
+}
+
+/// Queues a present subfacet that one of its two opposite vertices encroaches.
+template <class Tr>
+void queue_if_encroached_subfacet(const Tr& tr, Feature_refiner_3<Tr>& refiner, std::uint32_t slot) {
+  const auto& t = refiner.complex().subfacet(slot);
+  typename Tr::Cell_handle c;
+  int i, j, k;
+  if (!tr.is_facet(t.vertices[0], t.vertices[1], t.vertices[2], c, i, j, k)) return;
+  const int m = 6 - i - j - k;
+  for (const auto v : {c->vertex(m), tr.mirror_vertex(c, m)})
+    if (!tr.is_infinite(v) && encroaches(refiner.complex(), t, v)) {
+      refiner.request_subfacet(slot, Split_reason::encroached, refiner.floor_of(v));
+      return;
+    }
+}
+
+}  // namespace internal
+
+/// Marks the subsegments that are there and queues those that are not, or that a vertex encroaches.
+template <class Tr>
+void start_segment_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
+  auto& complex = refiner.complex();
+  const auto slots = static_cast<std::uint32_t>(complex.subsegment_slots());
+  for (std::uint32_t s = 0; s < slots; ++s)
+    if (!mark_subsegment(tr, complex, s)) refiner.note_missing_subsegment(s);
+  for (std::uint32_t s = 0; s < slots; ++s)
+    if (complex.subsegment(s).present) internal::queue_if_encroached_subsegment(tr, refiner, s);
+}
+
+/// The same for subfacets, once every subsegment is there; cocircular polygons adopt what the triangulation shows.
+template <class Tr>
+void start_facet_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
+  auto& complex = refiner.complex();
+  const auto slots = [&] { return static_cast<std::uint32_t>(complex.subfacet_slots()); };
+  for (std::uint32_t t = 0; t < slots(); ++t)
+    if (complex.subfacet(t).alive && !complex.subfacet(t).present) mark_subfacet(tr, complex, t);
+  Cocircular_polygon_3<Tr> polygon(tr, complex);
+  for (std::uint32_t t = 0; t < slots(); ++t)
+    if (complex.subfacet(t).alive && !complex.subfacet(t).present && !polygon.adopt(t))
+      refiner.note_missing_subfacet(t);
+  for (std::uint32_t t = 0; t < slots(); ++t)
+    if (complex.subfacet(t).alive && complex.subfacet(t).present)
+      internal::queue_if_encroached_subfacet(tr, refiner, t);
+}
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_CONSTRAINT_COMPLEX_3_H
+#define PGDR_CONFORMING_CONSTRAINT_COMPLEX_3_H
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <boost/container/small_vector.hpp>
+
+#include <pgdr/conforming/facet_plane_3.h>
+#include <pgdr/domain/domain_3.h>
+#include <pgdr/mesh/mesh_triangulation_3.h>
+
+namespace pgdr {
+
+/// Names a piece by its slot and the use of that slot; a reference to a piece that was split since is recognised.
+struct Piece_id {
+  std::uint32_t slot = 0xffffffffu;
+  std::uint32_t version = 0;
+};
+
+/// The segments and facets of the domain as the mesh has to show them: subsegments and subfacets, each *present*
+/// in the 3D triangulation (and then marked on its cells) or still missing.
+///
+/// Every facet is a 2D triangulation of its own, one sheet of subfacets joined across common edges, that exists
+/// whether or not its triangles exist in 3D. A constraint is recovered by splitting what is missing.
+template <class Tr>
+class Constraint_complex_3 {
+ public:
+  using Kernel = typename Tr::Geom_traits;
+  using Vertex_handle = typename Tr::Vertex_handle;
+  using Cell_handle = typename Tr::Cell_handle;
+  using Domain = Domain_3<Kernel>;
+
+  static constexpr std::uint32_t none = 0xffffffffu;
+  /// Set in a neighbour code when what lies across the edge is a subsegment.
+  static constexpr std::uint32_t subsegment_bit = 0x80000000u;
+
+  struct Subsegment {
+    std::array<Vertex_handle, 2> vertices;
+    Index segment = 0;
+    std::uint32_t version = 0;
+    bool alive = false;
+    bool present = false;
+    std::uint8_t scratch = 0;
+    /// One entry for every subfacet with this edge, in the order in which they came.
+    boost::container::small_vector<std::uint32_t, 2> subfacets;
+  };
+
+  struct Subfacet {
+    std::array<Vertex_handle, 3> vertices;  ///< counterclockwise about the facet's normal
+    /// Across the edge opposite to each vertex: a subfacet of the same facet, or a subsegment with `subsegment_bit`.
+    std::array<std::uint32_t, 3> neighbors{none, none, none};
+    Index facet = 0;
+    std::uint32_t version = 0;
+    bool alive = false;
+    bool present = false;
+    std::uint8_t scratch = 0;
+  };
+
+  explicit Constraint_complex_3(const Domain& domain) : domain_(&domain) {
+    planes_.reserve(domain.facets.size());
+    for (const auto& f : domain.facets) planes_.emplace_back(f.origin, f.normal);
+    corner_subsegments_.resize(domain.vertices.size());
+  }
+
+  const Domain& domain() const { return *domain_; }
+  const Facet_plane_3& plane(Index facet) const { return planes_[facet]; }
+
+  Subsegment& subsegment(std::uint32_t i) { return subsegments_[i]; }
+  const Subsegment& subsegment(std::uint32_t i) const { return subsegments_[i]; }
+  Subfacet& subfacet(std::uint32_t i) { return subfacets_[i]; }
+  const Subfacet& subfacet(std::uint32_t i) const { return subfacets_[i]; }
+  std::size_t subsegment_slots() const { return subsegments_.size(); }
+  std::size_t subfacet_slots() const { return subfacets_.size(); }
+
+  Piece_id subsegment_id(std::uint32_t i) const { return {i, subsegments_[i].version}; }
+  Piece_id subfacet_id(std::uint32_t i) const { return {i, subfacets_[i].version}; }
+  bool is_live_subsegment(Piece_id p) const {
+    return subsegments_[p.slot].alive && subsegments_[p.slot].version == p.version;
+  }
+  bool is_live_subfacet(Piece_id p) const {
+    return subfacets_[p.slot].alive && subfacets_[p.slot].version == p.version;
+  }
+
+  /// Makes a subsegment and links it to its ends.
+  std::uint32_t add_subsegment(Vertex_handle a, Vertex_handle b, Index segment) {
+    const std::uint32_t i = take(subsegments_, free_subsegments_);
+    Subsegment& s = subsegments_[i];
+    s.vertices = {a, b};
+    s.segment = segment;
+    s.present = false;
+    s.subfacets.clear();
+    link(a, i);
+    link(b, i);
+    return i;
+  }
+
+  /// Makes the two halves of a subsegment at v, its new inner vertex. The old one leaves its ends, but keeps its
+  /// slot until `remove_subsegment`, so that the subfacets on it can still be told apart.
+  std::array<std::uint32_t, 2> halve_subsegment(std::uint32_t i, Vertex_handle v) {
+    const auto ends = subsegments_[i].vertices;
+    const Index segment = subsegments_[i].segment;
+    for (const Vertex_handle end : ends) unlink(end, i);
+    const std::uint32_t first = add_subsegment(ends[0], v, segment);
+    return {first, add_subsegment(v, ends[1], segment)};
+  }
+
+  /// Gives back the slot of a halved subsegment.
+  void remove_subsegment(std::uint32_t i) { release(subsegments_, free_subsegments_, i); }
+
+  std::uint32_t add_subfacet(Vertex_handle a, Vertex_handle b, Vertex_handle c, Index facet) {
+    const std::uint32_t i = take(subfacets_, free_subfacets_);
+    Subfacet& t = subfacets_[i];
+    t.vertices = {a, b, c};
+    t.neighbors = {none, none, none};
+    t.facet = facet;
+    t.present = false;
+    return i;
+  }
+
+  /// Also takes it off the lists of the subsegments on its edges.
+  void remove_subfacet(std::uint32_t i) {
+    for (const std::uint32_t n : subfacets_[i].neighbors) {
+      if (n == none || !(n & subsegment_bit)) continue;
+      auto& list = subsegments_[n & ~subsegment_bit].subfacets;
+      const auto at = std::find(list.begin(), list.end(), i);
+      if (at != list.end()) list.erase(at);
+    }
+    release(subfacets_, free_subfacets_, i);
+  }
+
+  /// Exchanges the common edge of two subfacets for the other diagonal; both keep their slots.
+  void flip(std::uint32_t first, std::uint32_t second) {
+    Subfacet& t = subfacets_[first];
+    Subfacet& u = subfacets_[second];
+    const auto a = static_cast<std::size_t>(edge_with_neighbor(first, second));
+    const auto b = static_cast<std::size_t>(edge_with_neighbor(second, first));
+    const Vertex_handle j = t.vertices[a], k = t.vertices[(a + 1) % 3], l = t.vertices[(a + 2) % 3];
+    const Vertex_handle i = u.vertices[b];
+    const std::uint32_t jk = t.neighbors[(a + 2) % 3], lj = t.neighbors[(a + 1) % 3];
+    const std::uint32_t il = u.neighbors[(b + 2) % 3], ki = u.neighbors[(b + 1) % 3];
+    t.vertices = {j, k, i};
+    t.neighbors = {ki, second, jk};
+    u.vertices = {i, l, j};
+    u.neighbors = {lj, first, il};
+    replace_neighbor(ki, second, first);
+    replace_neighbor(lj, first, second);
+    ++t.version;
+    ++u.version;
+  }
+
+  /// The subsegment between two vertices; `none` if there is none.
+  std::uint32_t find_subsegment(Vertex_handle a, Vertex_handle b) const {
+    if (a->in_dimension() != 1) std::swap(a, b);
+    if (a->in_dimension() == 1) {
+      for (const std::uint32_t i : a->subsegments())
+        if (i != none && joins(i, a, b)) return i;
+      return none;
+    }
+    if (a->in_dimension() != 0) return none;
+    for (const std::uint32_t i : corner_subsegments_[a->index()])
+      if (joins(i, a, b)) return i;
+    return none;
+  }
+
+  /// Whether a vertex lies on a facet, as a matter of record, not of coordinates.
+  bool is_on_facet(Vertex_handle v, Index facet) const {
+    switch (v->in_dimension()) {
+      case 0: return contains(domain_->facets[facet].vertices, v->index());
+      case 1: return contains(domain_->segments[v->index()].facets, facet);
+      case 2: return v->index() == facet;
+      default: return false;
+    }
+  }
+
+  /// Whether a vertex lies on a segment, as a matter of record.
+  bool is_on_segment(Vertex_handle v, Index segment) const {
+    if (v->in_dimension() == 1) return v->index() == segment;
+    const auto& ends = domain_->segments[segment].vertices;
+    return v->in_dimension() == 0 && (ends[0] == v->index() || ends[1] == v->index());
+  }
+
+  /// Sign of the area of (a, b, c) projected along the facet's dominant axis, positive when counterclockwise
+  /// about its normal. Exact.
+  CGAL::Orientation orientation(Index facet, const typename Tr::Point& a, const typename Tr::Point& b,
+                                const typename Tr::Point& c) const {
+    return planes_[facet].template orientation<Kernel>(a, b, c);
+  }
+
+  /// Position of the edge of subfacet i whose neighbour code is `code`.
+  int edge_with_neighbor(std::uint32_t i, std::uint32_t code) const {
+    const auto& n = subfacets_[i].neighbors;
+    return n[0] == code ? 0 : n[1] == code ? 1 : n[2] == code ? 2 : -1;
+  }
+
+ private:
+  /// What lies across an edge gets another subfacet on this side of it.
+  void replace_neighbor(std::uint32_t code, std::uint32_t from, std::uint32_t to) {
+    if (code & subsegment_bit) {
+      auto& list = subsegments_[code & ~subsegment_bit].subfacets;
+      *std::find(list.begin(), list.end(), from) = to;
+    } else {
+      auto& n = subfacets_[code].neighbors;
+      *std::find(n.begin(), n.end(), from) = to;
+    }
+  }
+
+  template <class Slots>
+  static std::uint32_t take(Slots& slots, std::vector<std::uint32_t>& free) {
+    std::uint32_t i;
+    if (free.empty()) {
+      i = static_cast<std::uint32_t>(slots.size());
+      slots.emplace_back();
+    } else {
+      i = free.back();
+      free.pop_back();
+    }
+    slots[i].alive = true;
+    ++slots[i].version;
+    slots[i].scratch = 0;
+    return i;
+  }
+
+  template <class Slots>
+  static void release(Slots& slots, std::vector<std::uint32_t>& free, std::uint32_t i) {
+    slots[i].alive = false;
+    slots[i].present = false;
+    free.push_back(i);
+  }
+
+  static bool contains(const std::vector<Index>& sorted, Index i) {
+    return std::binary_search(sorted.begin(), sorted.end(), i);
+  }
+
+  bool joins(std::uint32_t i, Vertex_handle a, Vertex_handle b) const {
+    const auto& v = subsegments_[i].vertices;
+    return (v[0] == a && v[1] == b) || (v[0] == b && v[1] == a);
+  }
+
+  void link(Vertex_handle v, std::uint32_t i) { replace_link(v, none, i); }
+  void unlink(Vertex_handle v, std::uint32_t i) { replace_link(v, i, none); }
+  void replace_link(Vertex_handle v, std::uint32_t from, std::uint32_t to) {
+    if (v->in_dimension() == 1) {
+      auto& s = v->subsegments();
+      (s[0] == from ? s[0] : s[1]) = to;
+    } else {
+      auto& list = corner_subsegments_[v->index()];
+      if (from == none)
+        list.push_back(to);
+      else
+        list.erase(std::find(list.begin(), list.end(), from));
+    }
+  }
+
+  const Domain* domain_;
+  std::vector<Facet_plane_3> planes_;
+  std::vector<Subsegment> subsegments_;
+  std::vector<Subfacet> subfacets_;
+  std::vector<std::uint32_t> free_subsegments_;
+  std::vector<std::uint32_t> free_subfacets_;
+  std::vector<boost::container::small_vector<std::uint32_t, 4>> corner_subsegments_;
+};
+
+}  // namespace pgdr
+
+#endif

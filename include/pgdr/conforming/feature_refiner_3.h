@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_FEATURE_REFINER_3_H
+#define PGDR_CONFORMING_FEATURE_REFINER_3_H
+
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/cavity_features_3.h>
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/encroachment_3.h>
+#include <pgdr/conforming/facet_star_3.h>
+#include <pgdr/conforming/presence_3.h>
+#include <pgdr/conforming/split_point_3.h>
+#include <pgdr/mesh/cavity_3.h>
+
+namespace pgdr {
+
+/// Why a subsegment or subfacet is to be split.
+enum class Split_reason : std::uint8_t {
+  missing,     ///< the 3D triangulation lacks it: conformity demands the split
+  encroached,  ///< a vertex lies in its diametral or equatorial ball, or a tetrahedron's Steiner point would
+  flat         ///< a tetrahedron has all four vertices on its facet
+};
+
+/// What became of a split.
+enum class Split_outcome : std::uint8_t {
+  inserted,  ///< a point was inserted, here or on the subsegment that was in the way
+  refused    ///< nothing was inserted: the edges would become too short
+};
+
+/// The shortest edge that a split may make next to small input angles. Away from these there is no such limit, since
+/// the theory promises one; next to them it is what keeps the refinement from going on for ever.
+struct Split_guard {
+  double floor = 0;                 ///< no new edge below this
+  std::array<Vec_3, 4> where{};     ///< "next to" is: one of these points
+  std::size_t count = 0;            ///< how many of them; 0: the split point itself
+  double reach = 0;                 ///< within this distance of a small angle; for `count` 0, 4 radii of the piece
+};
+
+/// Splits subsegments and subfacets until none is missing and none encroached: the one place that puts points on
+/// features. Subsegments come first; a facet's point yields to the subsegments that it encroaches, a segment's
+/// point yields to nothing; what a point deletes of another feature is missing from then on and queued.
+///
+/// Next to small input angles a piece that is merely encroached is not split if that would make an edge shorter
+/// than its `Split_guard` allows; nothing is ever split below the minimum edge length.
+template <class Tr>
+class Feature_refiner_3 {
+ public:
+  using Complex = Constraint_complex_3<Tr>;
+  using Vertex_handle = typename Tr::Vertex_handle;
+  using Cell_handle = typename Tr::Cell_handle;
+  using Point = typename Tr::Point;
+
+  /// A tetrahedron as it was when it was noted.
+  struct Cell_id {
+    Cell_handle cell;
+    unsigned int generation;
+    bool is_live() const { return cell->generation() == generation; }
+  };
+
+  Feature_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
+      : tr_(tr), complex_(complex), acute_(acute), cavity_(tr),
+        squared_min_edge_(min_edge_length * min_edge_length) {}
+
+  /// The cavity that this refiner works with, shared with whoever inserts volume points on the same thread.
+  Cavity_3<Tr>& cavity() { return cavity_; }
+  Cavity_features_3<Tr>& features() { return features_; }
+  Complex& complex() { return complex_; }
+  const Acute_neighborhood_3& acute() const { return acute_; }
+
+  void request_subsegment(std::uint32_t s, Split_reason reason, double floor) {
+    subsegment_queue_.push_back({complex_.subsegment_id(s), reason, floor});
+  }
+  void request_subfacet(std::uint32_t t, Split_reason reason, double floor) {
+    subfacet_queue_.push_back({complex_.subfacet_id(t), reason, floor});
+  }
+
+  bool has_subsegments() const { return !subsegment_queue_.empty(); }
+  bool is_idle() const { return subsegment_queue_.empty() && subfacet_queue_.empty(); }
+  std::size_t pending() const { return subsegment_queue_.size() + subfacet_queue_.size(); }
+  std::size_t inserted() const { return inserted_; }
+  /// Missing pieces that could not be split above the minimum edge length.
+  std::size_t unrecovered() const { return unrecovered_; }
+
+  /// Handles one request, subsegments before subfacets. \pre not idle.
+  void step() {
+    const bool segment = has_subsegments();
+    std::deque<Request>& queue = segment ? subsegment_queue_ : subfacet_queue_;
+    const Request r = queue.front();
+    queue.pop_front();
+    if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) return;
+    const std::uint32_t slot = r.piece.slot;
+    const bool present = segment ? complex_.subsegment(slot).present : complex_.subfacet(slot).present;
+    if (r.reason == Split_reason::missing && present) return;
+    const Split_outcome outcome =
+        segment ? split_subsegment(slot, r.reason, {r.floor}) : split_subfacet(slot, r.reason, {r.floor});
+    if (outcome == Split_outcome::refused) {
+      unrecovered_ += r.reason == Split_reason::missing;
+    } else if (!segment && complex_.is_live_subfacet(r.piece)) {
+      subfacet_queue_.push_back(r);  // a subsegment was split instead
+    }
+  }
+
+  /// Splits a subsegment.
+  Split_outcome split_subsegment(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
+    const auto s = complex_.subsegment(slot);
+    const Vec_3 a = position(s.vertices[0]), b = position(s.vertices[1]);
+    const Vec_3 m = subsegment_split_point(a, b, is_acute(s.vertices[0]), is_acute(s.vertices[1]));
+    const Point p(m.x, m.y, m.z);
+    if (!cavity_.find(p, seed_for_subsegment(s, p))) return Split_outcome::refused;
+    if (is_too_close(m, reason, guard, 0.5 * length(b - a))) return abandon();
+
+    features_.gather(complex_, cavity_);
+    features_.mark_deleted(complex_, true);
+    stars_.resize(s.subfacets.size());
+    for (std::size_t k = 0; k < s.subfacets.size(); ++k)
+      if (!stars_[k].plan(complex_, s.subfacets[k], p, slot)) {
+        features_.mark_deleted(complex_, false);
+        return abandon();
+      }
+    const Vertex_handle v = commit(p, m);
+    v->set_feature(1, s.segment);
+    // Vertices on the shell of one acute corner come as close to each other as the angles there make them; what
+    // counts as their insertion radius is the shell's.
+    for (const Vertex_handle end : s.vertices)
+      if (is_acute(end)) v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
+    finish(v, complex_.halve_subsegment(slot, v), slot);
+    complex_.remove_subsegment(slot);
+    return Split_outcome::inserted;
+  }
+
+  /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
+  Split_outcome split_subfacet(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
+    const auto t = complex_.subfacet(slot);
+    const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
+    Vec_3 m = triangle_circumcenter(a, b, c);
+    const double radius = length(m - a);
+    // Off the center of cocircular vertices, or the next points would be cocircular again.
+    if (reason == Split_reason::flat) m = 0.8 * m + (0.2 / 3) * (a + b + c);
+    m = complex_.plane(t.facet).project(m);
+    if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
+    const Point p(m.x, m.y, m.z);
+
+    const Located at = locate(slot, p);
+    // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
+    const bool may_redirect = reason != Split_reason::flat;
+    if (at.subsegment != Complex::none && !may_redirect) return Split_outcome::refused;
+    if (at.subsegment != Complex::none) return split_subsegment(at.subsegment, reason_for_redirect(reason), guard);
+    if (!find_from_subfacet(at.subfacet, slot, p)) return Split_outcome::refused;
+    features_.gather(complex_, cavity_);
+    for (const auto& f : features_.subsegments())
+      if (f.deleted || is_encroached(complex_.subsegment(f.slot), p)) {
+        cavity_.abandon();
+        if (!may_redirect) return Split_outcome::refused;
+        return split_subsegment(f.slot, reason_for_redirect(reason), guard);
+      }
+    if (is_too_close(m, reason, guard, radius)) return abandon();
+    features_.mark_deleted(complex_, true);
+    stars_.resize(1);
+    if (!stars_[0].plan(complex_, at.subfacet, p, Complex::none)) {
+      features_.mark_deleted(complex_, false);
+      return abandon();
+    }
+    const Vertex_handle v = commit(p, m);
+    v->set_feature(2, t.facet);
+    finish(v, {Complex::none, Complex::none}, Complex::none);
+    return Split_outcome::inserted;
+  }
+
+  /// Tetrahedra made since the last call, some of them gone again. The caller empties it.
+  std::vector<Cell_id>& fresh_cells() { return fresh_cells_; }
+  /// Whether `fresh_cells` is kept; off until there are subdomains.
+  void keep_fresh_cells(bool on) { keep_fresh_ = on; }
+
+  /// Tetrahedra made while a facet was torn, whose subdomain is therefore unknown. The caller empties it.
+  std::vector<Cell_id>& unlabelled_cells() { return unlabelled_cells_; }
+
+  /// Queues a piece that the triangulation lacks.
+  void note_missing_subfacet(std::uint32_t t) {
+    complex_.subfacet(t).present = false;
+    torn_ = true;
+    request_subfacet(t, Split_reason::missing, 0);
+  }
+  void note_missing_subsegment(std::uint32_t s) {
+    complex_.subsegment(s).present = false;
+    request_subsegment(s, Split_reason::missing, 0);
+  }
+  /// Next to small angles, what a vertex encroaches is split only if the new edges are no shorter than those that
+  /// the vertex itself came with: otherwise two features could drive each other to ever shorter ones.
+  static double floor_of(Vertex_handle v) { return v->insertion_radius(); }
+
+  /// Called when every piece is present (again).
+  void note_mended() { torn_ = false; }
+
+ private:
+  struct Request {
+    Piece_id piece;
+    Split_reason reason;
+    double floor;
+  };
+  struct Located {
+    std::uint32_t subfacet;
+    std::uint32_t subsegment;
+  };
+
+  bool is_acute(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
+
+  /// A subsegment in the way of a missing subfacet has to go as much as the subfacet itself has to come.
+  static Split_reason reason_for_redirect(Split_reason reason) {
+    return reason == Split_reason::missing ? Split_reason::missing : Split_reason::encroached;
+  }
+
+  bool is_too_close(const Vec_3& m, Split_reason reason, const Split_guard& guard, double radius) const {
+    const double d2 = cavity_.squared_insertion_radius(m);
+    if (d2 < squared_min_edge_) return true;
+    if (reason == Split_reason::missing || d2 >= guard.floor * guard.floor * (1 - 1e-9)) return false;
+    if (guard.count == 0) return acute_.contains(m, 4 * radius);
+    return std::any_of(guard.where.begin(), guard.where.begin() + static_cast<std::ptrdiff_t>(guard.count),
+                       [&](const Vec_3& p) { return acute_.contains(p, guard.reach); });
+  }
+
+  Split_outcome abandon() {
+    cavity_.abandon();
+    return Split_outcome::refused;
+  }
+
+  Cell_handle seed_for_subsegment(const typename Complex::Subsegment& s, const Point& p) const {
+    Cell_handle c;
+    int i, j;
+    if (s.present && tr_.is_edge(s.vertices[0], s.vertices[1], c, i, j)) return c;
+    return tr_.locate(p, s.vertices[0]->cell());
+  }
+
+  /// Finds the cavity of a point of the facet; `at` holds the point, `from` is the subfacet being split.
+  bool find_from_subfacet(std::uint32_t at, std::uint32_t from, const Point& p) {
+    for (const std::uint32_t slot : {at, from}) {
+      const auto& t = complex_.subfacet(slot);
+      Cell_handle c;
+      int i, j, k;
+      if (!t.present || !tr_.is_facet(t.vertices[0], t.vertices[1], t.vertices[2], c, i, j, k)) continue;
+      if (cavity_.find(p, c) || cavity_.find(p, c->neighbor(6 - i - j - k))) return true;
+    }
+    const Cell_handle c = tr_.locate(p, complex_.subfacet(at).vertices[0]->cell());
+    return cavity_.find(p, c);
+  }
+
+  /// Walks in the sheet from a subfacet to the one that holds p, or to the subsegment in between.
+  Located locate(std::uint32_t from, const Point& p) const {
+    std::uint32_t at = from, before = Complex::none;
+    for (int steps = 0; steps < 100000; ++steps) {
+      const auto& t = complex_.subfacet(at);
+      std::uint32_t next = Complex::none;
+      for (std::size_t i = 0; i < 3 && next == Complex::none; ++i) {
+        const std::uint32_t n = t.neighbors[i];
+        if (n != before && complex_.orientation(t.facet, t.vertices[(i + 1) % 3]->point(),
+                                                t.vertices[(i + 2) % 3]->point(), p) == CGAL::NEGATIVE)
+          next = n;
+      }
+      if (next == Complex::none) return {at, Complex::none};
+      if (next & Complex::subsegment_bit) return {at, next & ~Complex::subsegment_bit};
+      before = at;
+      at = next;
+    }
+    return {from, Complex::none};
+  }
+
+  Vertex_handle commit(const Point& p, const Vec_3& m) {
+    const double radius = std::sqrt(cavity_.squared_insertion_radius(m));
+    const Vertex_handle v = cavity_.commit(p);
+    v->set_insertion_radius(radius);
+    ++inserted_;
+    return v;
+  }
+
+  /// After a point was inserted: replaces the planned stars, marks what is present, queues what is missing or encroached.
+  void finish(Vertex_handle v, const std::array<std::uint32_t, 2>& halves, std::uint32_t split) {
+    made_.clear();
+    for (const auto& star : stars_) {
+      unmark_survivors(tr_, complex_, star.removed());
+      star.apply(complex_, v, halves, made_);
+    }
+    for (const auto& f : features_.subfacets())
+      if (f.deleted && complex_.subfacet(f.slot).alive && complex_.subfacet(f.slot).scratch)
+        note_missing_subfacet(f.slot);
+    features_.mark_deleted(complex_, false);
+    for (const auto& f : features_.subsegments())
+      if (f.deleted && f.slot != split) note_missing_subsegment(f.slot);
+
+    for (const std::uint32_t h : halves)
+      if (h != Complex::none && !mark_subsegment(complex_, h, cavity_)) note_missing_subsegment(h);
+    for (const std::uint32_t t : made_)
+      if (!mark_subfacet(complex_, t, cavity_)) note_missing_subfacet(t);
+
+    queue_encroached(v, halves);
+    const auto& star = cavity_.star();
+    for (const Cell_handle c : star) {
+      if (keep_fresh_) fresh_cells_.push_back({c, c->generation()});
+      if (keep_fresh_ && torn_) unlabelled_cells_.push_back({c, c->generation()});
+    }
+  }
+
+  void queue_encroached(Vertex_handle v, const std::array<std::uint32_t, 2>& halves) {
+    const auto& star = cavity_.star();
+    for (std::size_t k = 0; k < star.size(); ++k) {
+      const Cell_handle c = star[k];
+      const int apex = cavity_.apex(k);
+      const std::uint32_t t = c->subfacet(apex);
+      if (t != Complex::none && encroaches(complex_, complex_.subfacet(t), v))
+        request_subfacet(t, Split_reason::encroached, floor_of(v));
+      if (!c->subsegment_edges()) continue;
+      for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j)
+          if (i != apex && j != apex && (c->subsegment_edges() & edge_bit(i, j))) {
+            const std::uint32_t s = complex_.find_subsegment(c->vertex(i), c->vertex(j));
+            if (s != Complex::none && encroaches(complex_, complex_.subsegment(s), v))
+              request_subsegment(s, Split_reason::encroached, floor_of(v));
+          }
+    }
+    for (const std::uint32_t h : halves)
+      if (h != Complex::none && complex_.subsegment(h).present) queue_if_encroached_half(h);
+    for (const std::uint32_t t : made_)
+      if (complex_.subfacet(t).present) queue_if_encroached(t);
+  }
+
+  void queue_if_encroached_half(std::uint32_t h) {
+    const auto& s = complex_.subsegment(h);
+    for (const Cell_handle c : cavity_.star()) {
+      if (!c->has_vertex(s.vertices[0]) || !c->has_vertex(s.vertices[1])) continue;
+      for (int i = 0; i < 4; ++i) {
+        const Vertex_handle w = c->vertex(i);
+        if (!tr_.is_infinite(w) && encroaches(complex_, s, w)) {
+          request_subsegment(h, Split_reason::encroached, floor_of(w));
+          return;
+        }
+      }
+    }
+  }
+
+  void queue_if_encroached(std::uint32_t slot) {
+    for (std::size_t k = 0; k < cavity_.star().size(); ++k) {
+      const Cell_handle c = cavity_.star()[k];
+      for (int i = 0; i < 4; ++i) {
+        const Vertex_handle w = c->vertex(i);
+        if (c->subfacet(i) == slot && !tr_.is_infinite(w) && encroaches(complex_, complex_.subfacet(slot), w)) {
+          request_subfacet(slot, Split_reason::encroached, floor_of(w));
+          return;
+        }
+      }
+    }
+  }
+
+  Tr& tr_;
+  Complex& complex_;
+  const Acute_neighborhood_3& acute_;
+  Cavity_3<Tr> cavity_;
+  Cavity_features_3<Tr> features_;
+  std::vector<Facet_star_3<Tr>> stars_;
+  std::vector<std::uint32_t> made_;
+  std::deque<Request> subsegment_queue_;
+  std::deque<Request> subfacet_queue_;
+  std::vector<Cell_id> fresh_cells_;
+  std::vector<Cell_id> unlabelled_cells_;
+  double squared_min_edge_;
+  std::size_t inserted_ = 0;
+  std::size_t unrecovered_ = 0;
+  bool keep_fresh_ = false;
+  bool torn_ = false;
+};
+
+}  // namespace pgdr
+
+#endif

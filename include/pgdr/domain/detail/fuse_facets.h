@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_DOMAIN_DETAIL_FUSE_FACETS_H
+#define PGDR_DOMAIN_DETAIL_FUSE_FACETS_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <pgdr/domain/detail/facet_pieces.h>
+
+namespace pgdr::domain_detail {
+
+/// One or several pieces in one plane.
+struct Facet_group {
+  std::vector<Index> pieces;  ///< ascending
+  Facet_plane plane;          ///< of the largest piece
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<Index_pair> segments;  ///< on its boundary and inside it, ascending
+};
+
+/// Fuses adjacent coplanar pieces with the same marker.
+///
+/// Groups grow breadth-first from the largest piece that has no group yet. Every vertex of a group lies
+/// within the tolerance of the plane of that one piece: comparing neighbours pairwise would drift around a
+/// cylinder.
+class Facet_fuser {
+ public:
+  /// \param segments explicit segments, sorted: nothing is fused across them.
+  Facet_fuser(const std::vector<Vec_3>& points, const std::vector<Facet_piece>& pieces,
+              const std::vector<Explicit_segment>& segments, double tolerance)
+      : points_(points), pieces_(pieces), tolerance_(tolerance) {
+    collect_edges(segments);
+  }
+
+  /// The groups, ordered by their first piece.
+  std::vector<Facet_group> fuse() {
+    std::vector<Index> order(pieces_.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return pieces_[a].area > pieces_[b].area; });
+    group_of_.assign(pieces_.size(), none);
+    std::vector<Facet_group> groups;
+    for (Index seed : order) {
+      if (group_of_[seed] != none) continue;
+      const Index id = static_cast<Index>(groups.size());
+      Facet_group group{grow(seed, id), pieces_[seed].plane, {}, {}};
+      if (group.pieces.size() > 1 && !triangulate(group, id)) {
+        // The projections overlap: each piece stays by itself.
+        const std::vector<Index> alone = group.pieces;
+        for (std::size_t i = 0; i < alone.size(); ++i) {
+          group_of_[alone[i]] = id + static_cast<Index>(i);
+          groups.push_back({{alone[i]}, pieces_[alone[i]].plane, {}, {}});
+        }
+      } else {
+        groups.push_back(std::move(group));
+      }
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      Facet_group& g = groups[i];
+      if (g.pieces.size() == 1) g.triangles = pieces_[g.pieces[0]].triangles;
+      g.segments = group_segments(g, static_cast<Index>(i));
+    }
+    std::sort(groups.begin(), groups.end(),
+              [](const Facet_group& a, const Facet_group& b) { return a.pieces[0] < b.pieces[0]; });
+    return groups;
+  }
+
+ private:
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  struct Edge_use {
+    Index piece;
+    Index apex;
+    bool internal;
+  };
+  struct Edge {
+    Index_pair ends;
+    std::size_t first_use;
+    std::size_t end_use;
+    bool fusable;
+  };
+
+  void collect_edges(const std::vector<Explicit_segment>& segments) {
+    struct Entry {
+      Index_pair ends;
+      Index piece, position;
+    };
+    std::vector<Entry> entries;
+    edge_ids_.resize(pieces_.size());
+    for (Index p = 0; p < pieces_.size(); ++p) {
+      edge_ids_[p].resize(pieces_[p].edges.size());
+      for (Index i = 0; i < pieces_[p].edges.size(); ++i) entries.push_back({pieces_[p].edges[i].ends, p, i});
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return a.ends < b.ends || (a.ends == b.ends && a.piece < b.piece);
+    });
+    for (const Entry& e : entries) {
+      const Piece_edge& use = pieces_[e.piece].edges[e.position];
+      if (edges_.empty() || edges_.back().ends != e.ends)
+        edges_.push_back({e.ends, uses_.size(), uses_.size(), false});
+      uses_.push_back({e.piece, use.apex, use.internal});
+      edges_.back().end_use = uses_.size();
+      edge_ids_[e.piece][e.position] = edges_.size() - 1;
+    }
+    auto explicit_segment = segments.begin();
+    for (Edge& e : edges_) {
+      while (explicit_segment != segments.end() && explicit_segment->ends < e.ends) ++explicit_segment;
+      const bool named = explicit_segment != segments.end() && explicit_segment->ends == e.ends;
+      if (named || e.end_use - e.first_use != 2) continue;
+      const Edge_use& a = uses_[e.first_use];
+      const Edge_use& b = uses_[e.first_use + 1];
+      e.fusable = !a.internal && !b.internal && pieces_[a.piece].marker == pieces_[b.piece].marker;
+    }
+  }
+
+  std::vector<Index> grow(Index seed, Index id) {
+    const Facet_plane& plane = pieces_[seed].plane;
+    std::vector<Index> members{seed};
+    group_of_[seed] = id;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      const Index p = members[next];
+      for (std::size_t edge : edge_ids_[p]) {
+        const Edge& e = edges_[edge];
+        if (!e.fusable) continue;
+        const bool first = uses_[e.first_use].piece == p;
+        const Edge_use& here = uses_[e.first_use + (first ? 0 : 1)];
+        const Edge_use& there = uses_[e.first_use + (first ? 1 : 0)];
+        if (group_of_[there.piece] != none || !in_plane(there.piece, plane)) continue;
+        if (!opposite_sides(e.ends, here.apex, there.apex, plane.normal)) continue;
+        group_of_[there.piece] = id;
+        members.push_back(there.piece);
+      }
+    }
+    std::sort(members.begin(), members.end());
+    return members;
+  }
+
+  bool in_plane(Index piece, const Facet_plane& plane) const {
+    // A needle thinner than the tolerance may stand at any angle; one that stands upright has no side.
+    if (std::abs(dot(pieces_[piece].plane.normal, plane.normal)) < 0.5) return false;
+    for (const auto& t : pieces_[piece].triangles)
+      for (Index v : t)
+        if (std::abs(dot(plane.normal, points_[v] - plane.origin)) > tolerance_) return false;
+    return true;
+  }
+
+  /// Whether the two pieces lie on different sides of their edge, seen along the normal.
+  bool opposite_sides(const Index_pair& edge, Index apex, Index other_apex, const Vec_3& normal) const {
+    const CGAL::Projection_traits_3<Work_kernel> traits(Work_kernel::Vector_3(normal.x, normal.y, normal.z));
+    const auto orientation = traits.orientation_2_object();
+    const Work_point a = point(edge[0]), b = point(edge[1]);
+    const CGAL::Orientation here = orientation(a, b, point(apex));
+    return here != CGAL::COLLINEAR && orientation(a, b, point(other_apex)) == -here;
+  }
+
+  Work_point point(Index v) const { return to_work_point(points_[v]); }
+
+  bool separates(const Edge& e, Index id) const {
+    if (!e.fusable) return true;
+    return group_of_[uses_[e.first_use].piece] != id || group_of_[uses_[e.first_use + 1].piece] != id;
+  }
+
+  std::vector<Index_pair> group_segments(const Facet_group& group, Index id) const {
+    std::vector<Index_pair> result;
+    for (Index p : group.pieces)
+      for (std::size_t edge : edge_ids_[p])
+        if (separates(edges_[edge], id)) result.push_back(edges_[edge].ends);
+    sort_unique(result);
+    return result;
+  }
+
+  /// \return false when the projections of the pieces overlap, so that they are no planar facet together.
+  bool triangulate(Facet_group& group, Index id) const {
+    const std::vector<Index_pair> segments = group_segments(group, id);
+    std::vector<Index> used;
+    std::size_t expected = 0;
+    for (Index p : group.pieces) {
+      expected += pieces_[p].triangles.size();
+      for (const auto& t : pieces_[p].triangles) used.insert(used.end(), t.begin(), t.end());
+    }
+    sort_unique(used);
+    Planar_triangulation plane_mesh(points_, used, group.plane.normal);
+    if (!plane_mesh.one_to_one()) return false;
+    for (const Index_pair& s : segments)
+      if (!plane_mesh.insert_constraint(s[0], s[1])) return false;
+    for (const Index_pair& s : segments)
+      if (!plane_mesh.has_edge(s[0], s[1])) return false;
+    plane_mesh.mark_odd(outline(group, segments));
+    group.triangles = plane_mesh.inside_triangles();
+    // Any triangulation of one region over the same vertices has the same number of triangles.
+    return group.triangles.size() == expected;
+  }
+
+  /// The segments with the group on exactly one side.
+  std::vector<Index_pair> outline(const Facet_group& group, const std::vector<Index_pair>& segments) const {
+    std::vector<Index_pair> once;
+    for (Index p : group.pieces)
+      for (const Piece_edge& e : pieces_[p].edges)
+        if (!e.internal && contains(segments, e.ends)) once.push_back(e.ends);
+    std::sort(once.begin(), once.end());
+    std::vector<Index_pair> result;
+    for (std::size_t i = 0; i < once.size();) {
+      std::size_t j = i;
+      while (j < once.size() && once[j] == once[i]) ++j;
+      if (j - i == 1) result.push_back(once[i]);
+      i = j;
+    }
+    return result;
+  }
+
+  const std::vector<Vec_3>& points_;
+  const std::vector<Facet_piece>& pieces_;
+  double tolerance_;
+  std::vector<Edge_use> uses_;
+  std::vector<Edge> edges_;
+  std::vector<std::vector<std::size_t>> edge_ids_;  ///< per piece, as `Facet_piece::edges`
+  std::vector<Index> group_of_;
+};
+
+}  // namespace pgdr::domain_detail
+
+#endif

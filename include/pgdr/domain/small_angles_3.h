@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_DOMAIN_SMALL_ANGLES_3_H
+#define PGDR_DOMAIN_SMALL_ANGLES_3_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include <pgdr/domain/detail/facet_edges.h>
+#include <pgdr/domain/detail/vector_3.h>
+#include <pgdr/domain/domain_3.h>
+
+namespace pgdr {
+
+/// Where features of a domain meet at small angles; all angles in degrees.
+struct Small_angles {
+  /// Plane angle asin(1/4) below which no triangle at the corner can have radius-edge ratio 2 or less.
+  static constexpr double critical_plane_angle_deg = 14.477512185929923;
+
+  /// Per vertex, the smallest angle between two segments there, or between a segment and a facet
+  /// that it does not belong to; 180 if none.
+  std::vector<double> vertex_deg;
+  /// Per segment, the smallest dihedral angle between two sheets there (a facet around an internal
+  /// segment has two); 180 if fewer than two.
+  std::vector<double> segment_deg;
+  double smallest_dihedral_deg = 180;         ///< over all segments
+  double smallest_plane_angle_deg = 180;      ///< inside facets, between two consecutive segments at a corner
+  std::size_t plane_corners_below_14_48 = 0;  ///< such corners below `critical_plane_angle_deg`
+};
+
+namespace domain_detail {
+
+/// Angle between direction `d` and the part of a plane between the directions `p` and `q`.
+inline double angle_to_sector_deg(const Vec_3& d, const Vec_3& p, const Vec_3& q) {
+  const Vec_3 n = cross(p, q);
+  const double to_sides = std::min(angle_deg(d, p), angle_deg(d, q));
+  // The projection of d into the plane lies between p and q.
+  if (dot(cross(p, d), n) <= 0 || dot(cross(d, q), n) <= 0) return to_sides;
+  const double height = std::abs(dot(d, n));
+  const double to_plane = std::atan2(height, length(cross(d, n))) * 180.0 / std::numbers::pi;
+  return std::min(to_sides, to_plane);
+}
+
+/// Smallest angle between consecutive directions around an axis, the gap across 360 degrees included.
+inline double smallest_gap_deg(std::vector<double>& angles) {
+  if (angles.size() < 2) return 180;
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + 360 - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) gap = std::min(gap, angles[i] - angles[i - 1]);
+  return gap;
+}
+
+}  // namespace domain_detail
+
+/// Measures the angles at every vertex, segment and facet corner of a domain.
+template <class K>
+Small_angles small_angles_3(const Domain_3<K>& domain) {
+  using namespace domain_detail;
+  std::vector<Vec_3> points;
+  points.reserve(domain.vertices.size());
+  for (const auto& p : domain.vertices) points.push_back(to_vec(p));
+  const Facet_edges edges(domain);
+
+  Small_angles result;
+  result.vertex_deg.assign(points.size(), 180);
+  result.segment_deg.assign(domain.segments.size(), 180);
+
+  // Segments: the directions in which sheets leave, as angles around the segment.
+  std::vector<double> around;
+  for (std::size_t s = 0; s < domain.segments.size(); ++s) {
+    around.clear();
+    const auto [a, b] = domain.segments[s].vertices;
+    const Vec_3 axis = normalized(points[b] - points[a]);
+    Vec_3 u, v;
+    for (const Sheet& sheet : edges.sheets(s)) {
+      // In the plane of the facet rather than of its triangle, which may be a needle.
+      const Vec_3 n = to_vec(domain.facets[sheet.facet].normal);
+      const Vec_3 inward = (sheet.forward ? 1.0 : -1.0) * cross(n, axis);
+      if (around.empty()) {
+        u = normalized(inward - dot(inward, axis) * axis);
+        v = cross(axis, u);
+      }
+      double angle = std::atan2(dot(inward, v), dot(inward, u)) * 180.0 / std::numbers::pi;
+      around.push_back(angle < 0 ? angle + 360 : angle);
+    }
+    result.segment_deg[s] = smallest_gap_deg(around);
+    result.smallest_dihedral_deg = std::min(result.smallest_dihedral_deg, result.segment_deg[s]);
+  }
+
+  // Corners inside facets.
+  for (const Facet_corner& corner : edges.corners(points)) {
+    result.smallest_plane_angle_deg = std::min(result.smallest_plane_angle_deg, corner.angle_deg);
+    if (corner.angle_deg < Small_angles::critical_plane_angle_deg) ++result.plane_corners_below_14_48;
+  }
+
+  // Vertices: segments against segments, and against the facet triangles around the vertex.
+  const Vertex_features features(domain);
+  for (std::size_t w = 0; w < points.size(); ++w) {
+    const auto segments = features.segments(w);
+    double& smallest = result.vertex_deg[w];
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const auto& segment = domain.segments[segments[i]];
+      const auto other_end = [&](const auto& s) {
+        return s.vertices[0] == w ? s.vertices[1] : s.vertices[0];
+      };
+      const Vec_3 d = points[other_end(segment)] - points[w];
+      for (std::size_t j = i + 1; j < segments.size(); ++j)
+        smallest =
+            std::min(smallest, angle_deg(d, points[other_end(domain.segments[segments[j]])] - points[w]));
+      for (const auto& [facet, triangle] : features.triangles(w)) {
+        if (std::binary_search(segment.facets.begin(), segment.facets.end(), facet)) continue;
+        const auto& t = domain.facets[facet].triangles[triangle];
+        const std::size_t k = t[0] == w ? 0 : t[1] == w ? 1 : 2;
+        smallest = std::min(smallest, angle_to_sector_deg(d, points[t[(k + 1) % 3]] - points[w],
+                                                          points[t[(k + 2) % 3]] - points[w]));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_IO_READ_PLC_H
+#define PGDR_IO_READ_PLC_H
+
+#include <filesystem>
+
+#include <pgdr/domain/default_kernel.h>
+
+namespace pgdr {
+
+/// Reads a PLC; the extension (in any case) tells the format.
+///
+/// `.poly`, `.smesh`: TetGen's PLC formats, with comments, 0- or 1-based numbers, facets of several polygons,
+/// facet holes, markers, volume holes and regions; a file without vertices takes them from the `.node`
+/// file beside it. A facet that holds nothing but two-vertex polygons becomes explicit segments.
+/// `.off`, `.stl` (ASCII and binary), `.ply` (ASCII and binary), `.obj`: surfaces, one facet per polygon,
+/// marker 0, `Nesting::alternate`; colours, normals and textures are left out.
+///
+/// Throws `Input_error`, whose message is one sentence with the file and, in text files, the 1-based line.
+Plc read_plc(const std::filesystem::path& path);
+
+/// Whether `read_plc` knows the extension.
+bool is_known_plc_extension(const std::filesystem::path& path);
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_MESH_INDEXED_MESH_3_H
+#define PGDR_MESH_INDEXED_MESH_3_H
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pgdr {
+
+/// A finished tetrahedral mesh as plain arrays in canonical order: what files hold and what the checker reads.
+///
+/// Indices are 0-based. Tetrahedra are positively oriented: for (a,b,c,d), det(b-a, c-a, d-a) > 0.
+struct Indexed_mesh_3 {
+  using Point = std::array<double, 3>;
+
+  std::vector<Point> points;
+  std::vector<std::int32_t> point_references;    ///< the input vertex's marker; 0 for Steiner points
+  std::vector<std::uint8_t> point_dimensions;    ///< `in_dimension`: 0 corner, 1 segment, 2 facet, 3 volume; may be empty (a `.mesh` file does not hold it)
+
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< subsegments
+  std::vector<std::int32_t> edge_references;
+
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< subfacets, internal ones included, each once
+  std::vector<std::int32_t> triangle_references;        ///< the input facet's marker
+
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+  std::vector<std::int32_t> tetrahedron_references;  ///< region id
+  std::vector<std::uint32_t> exempt;                 ///< ascending positions in `tetrahedra` of those over the ratio bound; not in `.mesh`
+};
+
+}  // namespace pgdr
+
+#endif

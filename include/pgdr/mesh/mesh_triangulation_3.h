@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_MESH_MESH_TRIANGULATION_3_H
+#define PGDR_MESH_MESH_TRIANGULATION_3_H
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Triangulation_data_structure_3.h>
+
+#include <pgdr/domain/vec_3.h>
+#include <pgdr/mesh/mesh_cell_base_3.h>
+#include <pgdr/mesh/mesh_vertex_base_3.h>
+
+namespace pgdr {
+
+/// The Delaunay triangulation that is refined: CGAL's, with the mesh's vertices and cells.
+///
+/// `Concurrency_tag` chooses CGAL's containers; the refinement itself never asks which.
+template <class Gt, class Concurrency_tag = CGAL::Sequential_tag>
+class Mesh_triangulation_3
+    : public CGAL::Delaunay_triangulation_3<
+          Gt, CGAL::Triangulation_data_structure_3<Mesh_vertex_base_3<Gt>, Mesh_cell_base_3<Gt>, Concurrency_tag>> {
+  using Base = CGAL::Delaunay_triangulation_3<
+      Gt, CGAL::Triangulation_data_structure_3<Mesh_vertex_base_3<Gt>, Mesh_cell_base_3<Gt>, Concurrency_tag>>;
+
+ public:
+  using typename Base::Cell_handle;
+  using typename Base::Facet;
+  using typename Base::Point;
+  using typename Base::Vertex_handle;
+
+  using Base::Base;
+
+  /// Whether the open circumball of c holds p, ties broken by CGAL's symbolic perturbation. Exact.
+  ///
+  /// The same answer as `side_of_sphere(c, p, true) == ON_BOUNDED_SIDE`, with the finite case first.
+  bool in_conflict(Cell_handle c, const Point& p) const {
+    const Vertex_handle inf = this->infinite_vertex();
+    const Vertex_handle v0 = c->vertex(0), v1 = c->vertex(1), v2 = c->vertex(2), v3 = c->vertex(3);
+    if (v0 != inf && v1 != inf && v2 != inf && v3 != inf)
+      return this->side_of_oriented_sphere(v0->point(), v1->point(), v2->point(), v3->point(), p, true) ==
+             CGAL::ON_POSITIVE_SIDE;
+    return this->side_of_sphere(c, p, true) == CGAL::ON_BOUNDED_SIDE;
+  }
+};
+
+/// Coordinates of a vertex, rounded to double.
+template <class Vertex_handle>
+Vec_3 position(Vertex_handle v) {
+  return to_vec(v->point());
+}
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_PARAMETERS_H
+#define PGDR_PARAMETERS_H
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+
+namespace pgdr {
+
+/// What the refinement tells about itself while it runs; the same calls come in the same order in every run.
+struct Progress {
+  const char* phase = "";        ///< "conforming" or "refinement"
+  std::size_t vertices = 0;      ///< of the triangulation, the box included
+  std::size_t pending = 0;       ///< elements that wait to be looked at
+};
+
+/// Everything that steers `refine_mesh_3`, with the reason for each default.
+struct Parameters {
+  /// Upper bound of circumradius over shortest edge. 2 is the smallest bound that the
+  /// termination proof of Delaunay refinement covers (Shewchuk 1998); smaller ones are refused.
+  double radius_edge_ratio = 2.0;
+
+  /// Facets whose vertices lie this close to one plane, relative to the bounding box's diagonal, are fused.
+  /// 1e-6 undoes single-precision files and is far below any feature that a simulation resolves.
+  double coplanar_tolerance = 1e-6;
+
+  /// Accept polygons that are not planar, as triangles. Off: such a polygon is more often an error than meant.
+  bool triangulate_facets = false;
+
+  /// Leave out the volume bounds of the regions in the input.
+  bool ignore_region_sizes = false;
+
+  /// No edge shorter than this is made by choice; 0: 1e-9 of the bounding box's diagonal,
+  /// below which double precision no longer separates the points of a facet.
+  double min_edge_length = 0;
+
+  /// The refinement stops at this many vertices, with a valid mesh; 0: no limit.
+  std::size_t max_vertices = 0;
+
+  /// Run CGAL's `is_valid()` on the refined triangulation, Delaunay property included.
+  bool verify = false;
+
+  /// Called now and then from the refining thread.
+  std::function<void(const Progress&)> progress;
+
+  /// Set from any thread or a signal handler to stop at the next insertion; the mesh is valid then.
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_QUALITY_MESH_QUALITY_H
+#define PGDR_QUALITY_MESH_QUALITY_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+#include <pgdr/mesh/indexed_mesh_3.h>
+
+namespace pgdr {
+
+/// How good the tetrahedra of a mesh are, and how many of everything there are. All zero for an empty mesh.
+struct Mesh_quality {
+  std::size_t vertices = 0;
+  std::size_t edges = 0;      ///< subsegments
+  std::size_t triangles = 0;  ///< subfacets
+  std::size_t tetrahedra = 0;
+
+  double max_radius_edge_ratio = 0;
+  double mean_radius_edge_ratio = 0;
+  double max_circumradius = 0;
+  double shortest_edge = 0;  ///< of all tetrahedra
+  double min_dihedral_deg = 0;
+  double max_dihedral_deg = 0;
+
+  double volume = 0;                              ///< sum of the signed volumes
+  std::map<std::int32_t, double> region_volumes;  ///< by region id
+  std::map<std::int32_t, std::size_t> region_tetrahedra;
+
+  /// All six dihedral angles of every tetrahedron: bin i counts [10 i, 10 (i + 1)) degrees, the last one 180
+  /// too.
+  std::array<std::uint64_t, 18> dihedral_histogram{};
+  static constexpr double dihedral_bin_deg = 10;
+  /// Radius-edge ratios: bin i counts [0.25 i, 0.25 (i + 1)), the last one everything above too.
+  std::array<std::uint64_t, 16> ratio_histogram{};
+  static constexpr double ratio_bin = 0.25;
+};
+
+/// Measures every tetrahedron of `mesh`, whose indices must be in range. Sums run in the order of the mesh.
+Mesh_quality mesh_quality(const Indexed_mesh_3& mesh);
+
+/// 64 bits that stand for the points, edges, triangles and tetrahedra of `mesh` and their references, bit by
+/// bit and in order: equal for equal arrays on every machine with IEEE doubles, and different (but for a
+/// chance of 2^-64) as soon as one bit differs or two items change places. `exempt` and `point_dimensions`
+/// are left out: they follow from the rest, and a mesh that was read back from a `.mesh` file lacks them.
+///
+/// The function: h starts at a constant; each 64-bit word w (length of an array, bits of a double, one index
+/// or reference as unsigned) makes h = m(h xor w) with m the finalizer of the SplitMix64 generator (Steele,
+/// Lea and Flood 2014), which is a bijection.
+std::uint64_t mesh_checksum(const Indexed_mesh_3& mesh);
+
+}  // namespace pgdr
+
+#endif

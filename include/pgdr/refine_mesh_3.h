@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_REFINE_MESH_3_H
+#define PGDR_REFINE_MESH_3_H
+
+#include <chrono>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <pgdr/conforming/conforming_delaunay_3.h>
+#include <pgdr/conforming/subdomains_3.h>
+#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/parameters.h>
+#include <pgdr/refinement/delaunay_leaf_refiner_3.h>
+#include <pgdr/refinement/indexed_mesh_of_3.h>
+#include <pgdr/refinement/quality_criteria_3.h>
+#include <pgdr/refinement/refined_mesh_3.h>
+#include <pgdr/sizing/sizing_field.h>
+
+namespace pgdr {
+
+namespace internal {
+
+/// One run from domain to refined mesh: recovery, subdomains, refinement, and the limits on all of them.
+template <class K, class Sizing>
+class Mesher_3 {
+  using Mesh = Refined_mesh_3<K>;
+  using Tr = typename Mesh::Triangulation;
+  using Criteria = Quality_criteria_3<K, Sizing>;
+  using Refiner = Delaunay_leaf_refiner_3<Tr, Criteria>;
+  using Clock = std::chrono::steady_clock;
+
+ public:
+  Mesher_3(Domain_3<K> domain, const Parameters& parameters)
+      : parameters_(parameters), mesh_(std::move(domain)), acute_(mesh_.domain()),
+        features_(mesh_.triangulation(), mesh_.complex(), acute_,
+                  parameters.min_edge_length > 0 ? parameters.min_edge_length : 1e-9 * mesh_.domain().diagonal) {
+    mesh_.set_radius_edge_ratio(parameters.radius_edge_ratio);
+  }
+
+  Mesh run(const Sizing& sizing) {
+    start_ = Clock::now();
+    phase_ = "conforming";
+    build_complex(mesh_.complex(), insert_domain_vertices(mesh_.triangulation(), mesh_.domain()));
+    lap("triangulation");
+    start_segment_recovery(mesh_.triangulation(), features_);
+    while (features_.has_subsegments() && !should_stop()) features_.step();
+    start_facet_recovery(mesh_.triangulation(), features_);
+    while (!features_.is_idle() && !should_stop()) features_.step();
+    features_.note_mended();
+    lap("conforming");
+    mesh_.subdomains() =
+        Subdomain_labeler_3<Tr>(mesh_.triangulation(), mesh_.complex()).label(parameters_.ignore_region_sizes);
+    lap("labelling");
+    if (count_missing() == 0 && reason_ == Stop_reason::finished) refine(sizing);
+    lap("refinement");
+    if (parameters_.verify && !mesh_.triangulation().is_valid())
+      throw std::logic_error("the refined triangulation is not a valid Delaunay triangulation");
+    if (parameters_.verify) lap("verification");
+    conclude();
+    return std::move(mesh_);
+  }
+
+ private:
+  void refine(const Sizing& sizing) {
+    phase_ = "refinement";
+    const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains());
+    Refiner refiner(mesh_.triangulation(), features_, criteria, [this] { return should_stop(); });
+    typename Refiner::Worklist worklist;
+    pending_ = [this, &worklist] { return worklist.size() + features_.pending(); };
+    features_.keep_fresh_cells(true);
+    Tr& tr = mesh_.triangulation();
+    for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) refiner.classify(c, worklist);
+    refiner.drain(Leaf_region{}, worklist);
+    pending_ = [] { return std::size_t{0}; };
+  }
+
+  /// Asked before every insertion.
+  bool should_stop() {
+    if (reason_ != Stop_reason::finished) return true;
+    const std::size_t vertices = mesh_.triangulation().number_of_vertices();
+    if (parameters_.max_vertices > 0 && vertices >= parameters_.max_vertices) reason_ = Stop_reason::vertex_budget;
+    if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = Stop_reason::cancelled;
+    if (parameters_.progress && ++calls_ % 4096 == 0) parameters_.progress({phase_, vertices, pending_()});
+    return reason_ != Stop_reason::finished;
+  }
+
+  void lap(const char* phase) {
+    const auto now = Clock::now();
+    mesh_.statistics().seconds.emplace_back(phase, std::chrono::duration<double>(now - start_).count());
+    start_ = now;
+  }
+
+  void conclude() {
+    Run_statistics& s = mesh_.statistics();
+    s.unrecovered = count_missing();
+    s.steiner_points = mesh_.triangulation().number_of_vertices() - mesh_.domain().vertices.size() -
+                       (is_box(mesh_.domain()) ? 0 : 8);
+    if (reason_ == Stop_reason::finished && s.unrecovered > 0) reason_ = Stop_reason::min_edge_length;
+    s.stop = reason_;
+    const std::string lost =
+        s.unrecovered == 0 ? "" : "; " + std::to_string(s.unrecovered) + " pieces of the input are not in the mesh";
+    switch (reason_) {
+      case Stop_reason::finished: break;
+      case Stop_reason::vertex_budget:
+        s.stop_message = "stopped at the limit of " + std::to_string(parameters_.max_vertices) + " vertices" + lost;
+        break;
+      case Stop_reason::cancelled: s.stop_message = "cancelled" + lost; break;
+      case Stop_reason::min_edge_length:
+        s.stop_message = "stopped at the minimum edge length, next to a small input angle" + lost;
+        break;
+    }
+  }
+
+  std::size_t count_missing() const {
+    const auto& complex = mesh_.complex();
+    std::size_t n = 0;
+    for (std::uint32_t i = 0; i < complex.subsegment_slots(); ++i)
+      n += complex.subsegment(i).alive && !complex.subsegment(i).present;
+    for (std::uint32_t i = 0; i < complex.subfacet_slots(); ++i)
+      n += complex.subfacet(i).alive && !complex.subfacet(i).present;
+    return n;
+  }
+
+  const Parameters& parameters_;
+  Mesh mesh_;
+  Acute_neighborhood_3 acute_;
+  Feature_refiner_3<Tr> features_;
+  Stop_reason reason_ = Stop_reason::finished;
+  const char* phase_ = "";
+  std::size_t calls_ = 0;
+  std::function<std::size_t()> pending_ = [] { return std::size_t{0}; };
+  Clock::time_point start_;
+};
+
+}  // namespace internal
+
+/// Meshes a domain: a conforming Delaunay tetrahedralization in which every tetrahedron has a radius-edge ratio of
+/// at most `parameters.radius_edge_ratio` and a circumradius of at most `sizing` at its circumcenter, but for
+/// *exempt* ones next to input angles below 60 degrees.
+///
+/// Ends for every domain without acute angles between facets (Shewchuk 1998); else a limit may end it, see
+/// `Run_statistics::stop`. \pre `validate_domain_3(domain)` finds no fault.
+/// Throws `std::invalid_argument` for parameters without sense.
+template <class K, class Sizing>
+  requires SizingField<Sizing, K>
+Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters = {}) {
+  if (!(parameters.radius_edge_ratio >= 2))
+    throw std::invalid_argument("the radius-edge ratio must be at least 2: below it the refinement need not end");
+  return internal::Mesher_3<K, Sizing>(std::move(domain), parameters).run(sizing);
+}
+
+/// The same from a PLC as the user wrote it. Throws `Input_error` with every problem that is found in it.
+template <class K, class Sizing>
+  requires SizingField<Sizing, K>
+Refined_mesh_3<K> refine_mesh_3(const Piecewise_linear_complex_3<K>& plc, const Sizing& sizing,
+                                const Parameters& parameters = {}) {
+  Domain_3<K> domain = make_domain_3(plc, parameters.coplanar_tolerance, parameters.triangulate_facets);
+  if (auto problems = validate_domain_3(domain); !problems.empty()) throw Input_error(std::move(problems));
+  return refine_mesh_3(std::move(domain), sizing, parameters);
+}
+
+}  // namespace pgdr
+
+#endif

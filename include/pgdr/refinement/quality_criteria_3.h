@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_REFINEMENT_QUALITY_CRITERIA_3_H
+#define PGDR_REFINEMENT_QUALITY_CRITERIA_3_H
+
+#include <utility>
+#include <vector>
+
+#include <pgdr/conforming/subdomains_3.h>
+#include <pgdr/refinement/tetrahedron_ball.h>
+#include <pgdr/sizing/sizing_field.h>
+
+namespace pgdr {
+
+/// When a tetrahedron is poor: radius-edge ratio, circumradius against the sizing field, volume against its
+/// subdomain's bound.
+template <class K, class Sizing>
+  requires SizingField<Sizing, K>
+class Quality_criteria_3 {
+ public:
+  Quality_criteria_3(double radius_edge_ratio, Sizing sizing, std::vector<Subdomain> subdomains)
+      // A hair below the bound, so that whoever measures the written mesh in other arithmetic agrees.
+      : squared_ratio_(radius_edge_ratio * radius_edge_ratio * (1 - 1e-9)),
+        sizing_(std::move(sizing)),
+        subdomains_(std::move(subdomains)) {}
+
+  bool is_poor(const Tetrahedron_ball& b, std::int32_t subdomain) const {
+    return is_over_ratio(b) || is_over_size(b, subdomain);
+  }
+
+  /// Circumradius over shortest edge above the bound.
+  bool is_over_ratio(const Tetrahedron_ball& b) const {
+    return b.squared_radius > squared_ratio_ * b.squared_shortest;
+  }
+
+  bool is_over_size(const Tetrahedron_ball& b, std::int32_t subdomain) const {
+    const double max_volume = subdomains_[static_cast<std::size_t>(subdomain)].max_volume;
+    if (max_volume > 0 && b.volume > max_volume) return true;
+    const double r = sizing_(typename K::Point_3(b.center.x, b.center.y, b.center.z));
+    return b.squared_radius > r * r;
+  }
+
+  const std::vector<Subdomain>& subdomains() const { return subdomains_; }
+
+ private:
+  double squared_ratio_;
+  Sizing sizing_;
+  std::vector<Subdomain> subdomains_;
+};
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_REPORT_RUN_SUMMARY_H
+#define PGDR_REPORT_RUN_SUMMARY_H
+
+#include <cstddef>
+#include <cstdint>
+#include <iomanip>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pgdr/quality/mesh_quality.h>
+#include <pgdr/report/format.h>
+#include <pgdr/report/run_statistics.h>
+
+namespace pgdr {
+
+/// Everything that is said about a run when it is over.
+struct Run_summary {
+  Mesh_quality quality;
+  std::size_t exempt_tetrahedra = 0;
+  std::uint64_t checksum = 0;  ///< `mesh_checksum`
+  Stop_reason stop = Stop_reason::finished;
+  std::string stop_message;
+  std::size_t steiner_points = 0;
+  std::size_t unrecovered = 0;
+  unsigned threads = 1;
+  std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
+  double total_seconds = 0;
+  std::size_t peak_memory_bytes = 0;
+};
+
+/// The name of `reason` in statistics files; never changes.
+inline const char* stop_reason_name(Stop_reason reason) {
+  switch (reason) {
+    case Stop_reason::finished:
+      return "finished";
+    case Stop_reason::vertex_budget:
+      return "vertex_budget";
+    case Stop_reason::min_edge_length:
+      return "min_edge_length";
+    case Stop_reason::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+/// Writes the summary for people: one property a line.
+inline void print_summary(std::ostream& out, const Run_summary& run) {
+  const Mesh_quality& quality = run.quality;
+  const auto line = [&out](const char* name, const std::string& value, const std::string& remark = {}) {
+    out << std::left << std::setw(18) << name << std::right << std::setw(13) << value;
+    if (!remark.empty()) out << "  " << remark;
+    out << '\n';
+  };
+  line("vertices", with_separators(quality.vertices),
+       with_separators(run.steiner_points) + " of them Steiner points");
+  line("tetrahedra", with_separators(quality.tetrahedra),
+       "in " + counted(quality.region_tetrahedra.size(), "region", "regions"));
+  line("triangles", with_separators(quality.triangles), "on facets");
+  line("edges", with_separators(quality.edges), "on segments");
+  line("radius-edge ratio", significant(quality.max_radius_edge_ratio),
+       "largest, " + significant(quality.mean_radius_edge_ratio) + " on average");
+  line("circumradius", significant(quality.max_circumradius), "largest");
+  line("dihedral angle", significant(quality.min_dihedral_deg), "degrees, smallest");
+  if (run.exempt_tetrahedra > 0)
+    line("exempt", with_separators(run.exempt_tetrahedra),
+         "tetrahedra over the bound, at small angles of the input");
+  if (run.unrecovered > 0)
+    line("missing", with_separators(run.unrecovered), "pieces of segments and facets when it stopped");
+  std::string phases;
+  for (const auto& [name, seconds] : run.seconds) {
+    if (seconds >= 0.005) phases += (phases.empty() ? "" : ", ") + name + " " + fixed(seconds);
+  }
+  line("seconds", fixed(run.total_seconds), phases);
+  line("peak memory", memory_size(run.peak_memory_bytes));
+}
+
+}  // namespace pgdr
+
+#endif

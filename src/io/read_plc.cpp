@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/io/read_plc.h>
+
+#include <algorithm>
+#include <string>
+
+#include "file_text.h"
+#include "readers.h"
+
+namespace pgdr {
+namespace io_detail {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+}  // namespace io_detail
+
+Plc read_plc(const std::filesystem::path& path) {
+  using namespace io_detail;
+  const std::string extension = lower_extension(path);
+  if (extension == ".poly") return read_tetgen(path, Tetgen_format::poly);
+  if (extension == ".smesh") return read_tetgen(path, Tetgen_format::smesh);
+  if (extension == ".off") return read_surface(path, Surface_format::off);
+  if (extension == ".stl") return read_surface(path, Surface_format::stl);
+  if (extension == ".ply") return read_surface(path, Surface_format::ply);
+  if (extension == ".obj") return read_surface(path, Surface_format::obj);
+  fail_at(path, 0, Input_problem::Kind::unreadable,
+          "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj");
+}
+
+bool is_known_plc_extension(const std::filesystem::path& path) {
+  const std::string extension = io_detail::lower_extension(path);
+  for (const char* known : {".poly", ".smesh", ".off", ".stl", ".ply", ".obj"}) {
+    if (extension == known) return true;
+  }
+  return false;
+}
+
+}  // namespace pgdr

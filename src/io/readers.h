@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SRC_IO_READERS_H
+#define PGDR_SRC_IO_READERS_H
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pgdr/domain/default_kernel.h>
+
+namespace pgdr::io_detail {
+
+/// The extension in lower case, with its dot.
+std::string lower_extension(const std::filesystem::path& path);
+
+enum class Tetgen_format { poly, smesh };
+enum class Surface_format { off, stl, ply, obj };
+
+Plc read_tetgen(const std::filesystem::path& path, Tetgen_format format);
+Plc read_surface(const std::filesystem::path& path, Surface_format format);
+
+/// What CGAL's reader gets to see, and what it has to find there.
+///
+/// CGAL's readers stop at a wrong file without saying where, and take some wrong files for right ones.
+/// So each file is checked first, word by word; the text formats are also reduced to coordinates and indices.
+struct Checked_surface {
+  std::string text;
+  std::size_t vertices = 0;  ///< 0 where the format does not count them (`.stl`)
+  std::size_t facets = 0;
+};
+
+Checked_surface check_off(std::string_view text, const std::filesystem::path& path);
+Checked_surface check_obj(std::string_view text, const std::filesystem::path& path);
+Checked_surface check_stl(std::string_view text, const std::filesystem::path& path);
+Checked_surface check_ply(std::string_view text, const std::filesystem::path& path);
+
+}  // namespace pgdr::io_detail
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pgdr/io/atomic_file.h>
+#include <pgdr/io/medit.h>
+
+#include "numbers.h"
+
+namespace pgdr {
+namespace {
+
+using io_detail::put_char;
+using io_detail::put_number;
+
+constexpr std::size_t rows_per_block = 8192;
+constexpr std::size_t max_row_length = 5 * (io_detail::max_number_length + 1);
+
+std::int32_t reference_of(const std::vector<std::int32_t>& references, std::size_t i) {
+  return i < references.size() ? references[i] : 0;
+}
+
+/// Formats the rows [first, last) of the vertex section; returns the end of the text.
+char* format_points(const Indexed_mesh_3& mesh, std::size_t first, std::size_t last, char* out) {
+  for (std::size_t i = first; i < last; ++i) {
+    for (const double x : mesh.points[i]) out = put_char(put_number(out, x), ' ');
+    out = put_char(put_number(out, reference_of(mesh.point_references, i)), '\n');
+  }
+  return out;
+}
+
+/// Formats the rows [first, last) of an element section; returns the end of the text.
+template <std::size_t N>
+char* format_elements(const std::vector<std::array<std::uint32_t, N>>& elements,
+                      const std::vector<std::int32_t>& references, std::size_t first, std::size_t last,
+                      char* out) {
+  for (std::size_t i = first; i < last; ++i) {
+    for (const std::uint32_t vertex : elements[i])
+      out = put_char(put_number(out, std::uint64_t(vertex) + 1), ' ');
+    out = put_char(put_number(out, reference_of(references, i)), '\n');
+  }
+  return out;
+}
+
+/// Writes a section; `format(first, last, out)` turns a range of its rows into text and knows of no other.
+template <class Format>
+void write_section(Atomic_file& out, const char* keyword, std::size_t count, const Format& format) {
+  out.write("\n" + std::string(keyword) + "\n" + std::to_string(count) + "\n");
+  const std::unique_ptr<char[]> block(new char[rows_per_block * max_row_length]);
+  for (std::size_t first = 0; first < count; first += rows_per_block) {
+    const char* const end = format(first, std::min(first + rows_per_block, count), block.get());
+    out.write(block.get(), static_cast<std::size_t>(end - block.get()));
+  }
+}
+
+template <std::size_t N>
+void write_elements(Atomic_file& out, const char* keyword,
+                    const std::vector<std::array<std::uint32_t, N>>& elements,
+                    const std::vector<std::int32_t>& references) {
+  write_section(out, keyword, elements.size(), [&](std::size_t first, std::size_t last, char* text) {
+    return format_elements(elements, references, first, last, text);
+  });
+}
+
+}  // namespace
+
+void write_medit(const Indexed_mesh_3& mesh, const std::filesystem::path& path) {
+  Atomic_file out(path);
+  out.write("MeshVersionFormatted 2\n\nDimension 3\n");
+  write_section(out, "Vertices", mesh.points.size(), [&](std::size_t first, std::size_t last, char* text) {
+    return format_points(mesh, first, last, text);
+  });
+  if (!mesh.edges.empty()) write_elements(out, "Edges", mesh.edges, mesh.edge_references);
+  if (!mesh.triangles.empty()) write_elements(out, "Triangles", mesh.triangles, mesh.triangle_references);
+  write_elements(out, "Tetrahedra", mesh.tetrahedra, mesh.tetrahedron_references);
+  out.write("\nEnd\n");
+  out.commit();
+}
+
+}  // namespace pgdr

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every kind of bad input: exit code 3, one sentence that names the file, line or facet, and no file left.
+#include <string>
+
+#include "program.h"
+
+using pgdr_test::check_fails;
+using pgdr_test::data_file;
+using pgdr_test::file_text;
+using pgdr_test::quoted;
+using pgdr_test::Run;
+using pgdr_test::Sandbox;
+using pgdr_test::shape;
+
+namespace {
+
+/// The unit tetrahedron's surface with vertex 3 as given, and one face replaced.
+std::string tetrahedron_off(const std::string& last_vertex = "0 0 1",
+                            const std::string& last_face = "3 1 2 3") {
+  return "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n" + last_vertex + "\n3 0 2 1\n3 0 1 3\n3 0 3 2\n" + last_face +
+         "\n";
+}
+
+/// Two unit squares that cross each other in the middle of a box.
+std::string crossing_poly() {
+  std::string text = file_text(data_file("cube.poly"));
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+  };
+  replace("\n8 3 0 0\n", "\n16 3 0 0\n");
+  replace("\n# facets",
+          "9 0.25 0.25 0.5\n10 0.75 0.25 0.5\n11 0.75 0.75 0.5\n12 0.25 0.75 0.5\n"
+          "13 0.5 0.3 0.25\n14 0.5 0.7 0.25\n15 0.5 0.7 0.75\n16 0.5 0.3 0.75\n# facets");
+  replace("\n6 1\n", "\n8 1\n1 0 7\n4 9 10 11 12\n1 0 8\n4 13 14 15 16\n");
+  return text;
+}
+
+/// All commands that read an input refuse it alike.
+void check_refused(const Sandbox& sandbox, const std::string& input, const std::vector<std::string>& words,
+                   bool one_line = true) {
+  check_fails(sandbox, "mesh " + input + " -o out.vtu -o out.mesh --stats out.json", 3, words, one_line);
+  check_fails(sandbox, "mesh " + input + " -o out.vtu --quiet", 3, words, one_line);
+}
+
+}  // namespace
+
+TEST_CASE("a file that is missing or no file", "[apps]") {
+  const Sandbox sandbox;
+  check_refused(sandbox, "missing.poly", {"missing.poly"});
+  check_fails(sandbox, "info missing.off", 3, {"missing.off"});
+  check_fails(sandbox, "check missing.mesh", 3, {"missing.mesh"});
+  check_refused(sandbox, sandbox.write("shape.step", "ISO-10303-21;"), {"shape.step"});
+  check_refused(sandbox, sandbox.write("empty.off", ""), {"empty.off"});
+  std::filesystem::create_directory(sandbox / "folder.poly");
+  check_refused(sandbox, "folder.poly", {"folder.poly"});
+}
+
+TEST_CASE("a file that is truncated", "[apps]") {
+  const Sandbox sandbox;
+  const std::string poly = file_text(data_file("cube.poly"));
+  check_refused(sandbox, sandbox.write("half.poly", poly.substr(0, poly.size() / 2)), {"half.poly"});
+  check_refused(sandbox, sandbox.write("short.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n"), {"short.off"});
+  check_refused(sandbox,
+                sandbox.write("short.stl", std::string(80, ' ') + std::string("\x10\x00\x00\x00", 4)),
+                {"short.stl"});
+  check_fails(sandbox,
+              "check " + sandbox.write("short.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 9\n"), 3,
+              {"short.mesh"});
+}
+
+TEST_CASE("coordinates that are not finite", "[apps]") {
+  const Sandbox sandbox;
+  check_refused(sandbox, sandbox.write("nan.off", tetrahedron_off("0 nan 1")), {"nan.off"});
+  check_refused(sandbox, sandbox.write("inf.off", tetrahedron_off("0 inf 1")), {"inf.off"});
+  check_refused(sandbox, sandbox.write("big.off", tetrahedron_off("0 1e999 1")), {"big.off"});
+}
+
+TEST_CASE("an index out of range", "[apps]") {
+  const Sandbox sandbox;
+  check_refused(sandbox, sandbox.write("index.off", tetrahedron_off("0 0 1", "3 1 2 4")), {"index.off"});
+  check_refused(sandbox, sandbox.write("index.off", tetrahedron_off("0 0 1", "3 1 2 -1")), {"index.off"});
+}
+
+TEST_CASE("nothing to mesh", "[apps]") {
+  const Sandbox sandbox;
+  check_refused(sandbox, sandbox.write("none.off", "OFF\n0 0 0\n"), {});
+  check_refused(sandbox, sandbox.write("points.off", "OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"), {});
+}
+
+TEST_CASE("a surface that encloses nothing names an open edge", "[apps]") {
+  const Sandbox sandbox;
+  check_refused(
+      sandbox,
+      sandbox.write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"),
+      {"edge"}, false);
+  const Run info = sandbox.run("info open.off");
+  CHECK(info.exit_code == 3);
+  CHECK(info.err.find("edge") != std::string::npos);
+}
+
+TEST_CASE("self-intersecting facets are named", "[apps]") {
+  const Sandbox sandbox;
+  check_refused(sandbox, sandbox.write("crossing.poly", crossing_poly()), {"facet"}, false);
+}
+
+TEST_CASE("a hole that leaves nothing", "[apps]") {
+  const Sandbox sandbox;
+  std::string text = file_text(data_file("cavity.poly"));
+  const std::size_t holes = text.find("\n1\n1 1.5 1.5 1.5\n");
+  REQUIRE(holes != std::string::npos);
+  text.replace(holes, 17, "\n2\n1 1.5 1.5 1.5\n2 0.5 0.5 0.5\n");
+  check_refused(sandbox, sandbox.write("nothing.poly", text), {});
+}
+
+TEST_CASE("a seed outside of everything is only worth a warning", "[apps]") {
+  const Sandbox sandbox;
+  std::string text = file_text(data_file("cavity.poly"));
+  const std::size_t holes = text.find("\n1\n1 1.5 1.5 1.5\n");
+  REQUIRE(holes != std::string::npos);
+  text.replace(holes, 17, "\n2\n1 1.5 1.5 1.5\n2 9 9 9\n");
+  sandbox.write("seed.poly", text);
+  for (const std::string arguments : {"mesh --quiet seed.poly -o out.vtu", "info seed.poly"}) {
+    const Run run = sandbox.run(arguments);
+    CHECK(run.exit_code == 0);
+    CHECK(run.err.rfind("pgdr: warning: ", 0) == 0);
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("the bad real models", "[apps]") {
+  const auto camel = pgdr_test::input_model("a22_bad_camel_selfint.off");
+  const auto head = pgdr_test::input_model("a23_bad_head_open.off");
+  const auto sheet = pgdr_test::input_model("a24_bad_degtri_sliding.off");
+  if (!camel || !head || !sheet) PGDR_SKIP("no models in " << pgdr_test::inputs_folder());
+  const Sandbox sandbox;
+  check_refused(sandbox, quoted(camel->string()), {"facet"}, false);
+  check_refused(sandbox, quoted(head->string()), {"edge"}, false);
+  check_refused(sandbox, quoted(sheet->string()), {}, false);
+}
+
+TEST_CASE("an output that cannot be written is found before the work starts", "[apps]") {
+  const Sandbox sandbox;
+  // The input does not exist: had it been looked at first, the exit code would be 3.
+  check_fails(sandbox, "mesh missing.poly -o nowhere/out.vtu", 1, {"nowhere"});
+  check_fails(sandbox, "mesh missing.poly -o out.vtu --stats nowhere/out.json", 1, {"nowhere"});
+  check_fails(sandbox, "info missing.poly --write-plc nowhere/out.poly", 1, {"nowhere"});
+  std::filesystem::create_directory(sandbox / "folder.vtu");
+  check_fails(sandbox, "mesh missing.poly -o folder.vtu", 1, {"folder.vtu"});
+}
+
+TEST_CASE("an existing output survives a failed run", "[apps]") {
+  const Sandbox sandbox;
+  sandbox.write("out.vtu", "precious");
+  check_fails(sandbox, "mesh " + sandbox.write("nan.off", tetrahedron_off("0 nan 1")) + " -o out.vtu", 3, {});
+  CHECK(file_text(sandbox / "out.vtu") == "precious");
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <string>
+
+#include "program.h"
+
+using pgdr_test::file_text;
+using pgdr_test::Run;
+using pgdr_test::Sandbox;
+using pgdr_test::shape;
+
+TEST_CASE("check passes on what mesh wrote", "[apps]") {
+  for (const char* name : {"cube.poly", "l_block.poly", "cavity.poly", "two_regions.poly",
+                           "plate_with_hole.poly", "winged_body_in_box.poly"}) {
+    const Sandbox sandbox;
+    const Run mesh = sandbox.run("mesh --quiet " + shape(name) + " -o out.mesh");
+    INFO(name << '\n' << mesh.err);
+    REQUIRE(mesh.exit_code == 0);
+    const Run check = sandbox.run("check out.mesh --plc " + shape(name));
+    INFO(check.out << check.err);
+    CHECK(check.exit_code == 0);
+    CHECK(check.out.find("FAIL") == std::string::npos);
+    CHECK(check.err.empty());
+  }
+}
+
+TEST_CASE("check fails on a mesh of something else, and on a broken one", "[apps]") {
+  const Sandbox sandbox;
+  REQUIRE(sandbox.run("mesh --quiet " + shape("cube.poly") + " --size 0.5 -o out.mesh").exit_code == 0);
+  CHECK(sandbox.run("check out.mesh").exit_code == 0);
+  const Run other = sandbox.run("check out.mesh --plc " + shape("l_block.poly"));
+  CHECK(other.exit_code == 1);
+  CHECK(other.out.find("FAIL") != std::string::npos);
+  const Run strict = sandbox.run("check out.mesh --radius-edge-ratio 0.7");
+  CHECK(strict.exit_code == 1);
+
+  // One tetrahedron less.
+  std::string text = file_text(sandbox / "out.mesh");
+  const std::size_t keyword = text.find("Tetrahedra\n");
+  REQUIRE(keyword != std::string::npos);
+  const std::size_t count = keyword + std::string("Tetrahedra\n").size();
+  const std::size_t first = text.find('\n', count) + 1;
+  const std::size_t second = text.find('\n', first) + 1;
+  const int tetrahedra = std::stoi(text.substr(count));
+  text = text.substr(0, count) + std::to_string(tetrahedra - 1) + "\n" + text.substr(second);
+  const Run broken = sandbox.run("check " + sandbox.write("broken.mesh", text));
+  CHECK(broken.exit_code == 1);
+  CHECK(broken.out.find("FAIL") != std::string::npos);
+}
+
+TEST_CASE("check without sense", "[apps]") {
+  const Sandbox sandbox;
+  pgdr_test::check_fails(sandbox, "check out.mesh --radius-edge-ratio 0", 2, {"--radius-edge-ratio"});
+  pgdr_test::check_fails(sandbox, "check out.mesh --coplanar-tolerance x", 2, {"--coplanar-tolerance"});
+  pgdr_test::check_fails(sandbox, "check out.mesh --plc missing.poly", 3, {"missing.poly"});
+}

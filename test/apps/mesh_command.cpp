@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+using nlohmann::json;
+using pgdr_test::file_text;
+using pgdr_test::Run;
+using pgdr_test::Sandbox;
+using pgdr_test::shape;
+
+TEST_CASE("mesh writes every output and a summary", "[apps]") {
+  const Sandbox sandbox;
+  const Run run = sandbox.run("mesh " + shape("cube.poly") + " --size 0.3 -o out.vtu -o out.mesh");
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.err.empty());  // no progress line where stderr is no terminal
+  CHECK(sandbox.names() == std::set<std::string>{"out.vtu", "out.mesh"});
+  for (const char* word : {"vertices", "tetrahedra", "radius-edge ratio", "dihedral", "seconds", "memory"})
+    CHECK(run.out.find(word) != std::string::npos);
+}
+
+TEST_CASE("mesh --quiet says nothing", "[apps]") {
+  const Sandbox sandbox;
+  const Run run = sandbox.run("mesh --quiet " + shape("l_block.poly") + " -o out.mesh");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out.empty());
+  CHECK(run.err.empty());
+  CHECK(sandbox.names() == std::set<std::string>{"out.mesh"});
+}
+
+TEST_CASE("the keys of --stats are stable", "[apps]") {
+  const Sandbox sandbox;
+  const std::string arguments =
+      "mesh " + shape("two_regions.poly") + " --quiet --verify --threads 1 --size 0.5 -o out.mesh --stats ";
+  REQUIRE(sandbox.run(arguments + "a.json").exit_code == 0);
+  const json stats = json::parse(file_text(sandbox / "a.json"));
+  for (const char* key : {"vertices", "tetrahedra", "triangles", "edges", "exempt_tetrahedra", "threads",
+                          "peak_memory_bytes"}) {
+    INFO(key);
+    REQUIRE(stats.contains(key));
+    CHECK(stats[key].is_number_unsigned());
+  }
+  for (const char* key :
+       {"max_radius_edge_ratio", "mean_radius_edge_ratio", "max_circumradius", "min_dihedral_deg"}) {
+    INFO(key);
+    REQUIRE(stats.contains(key));
+    CHECK(stats[key].get<double>() > 0);
+  }
+  CHECK(stats["vertices"].get<int>() > 12);
+  CHECK(stats["max_radius_edge_ratio"].get<double>() <= 2 + 1e-9);
+  CHECK(stats["max_circumradius"].get<double>() <= 0.5 + 1e-9);
+  CHECK(stats["exempt_tetrahedra"] == 0);
+  CHECK(stats["threads"] == 1);
+  CHECK(stats["stop"] == "finished");
+  CHECK(stats["peak_memory_bytes"].get<double>() > 1e6);
+  CHECK(stats["mesh_checksum"].get<std::string>().size() == 16);
+  double sum = 0;
+  for (const auto& [phase, seconds] : stats["seconds"].items()) {
+    if (phase != "total") sum += seconds.get<double>();
+  }
+  CHECK(stats["seconds"]["total"].get<double>() >= 0.9 * sum);
+  REQUIRE(stats["regions"].size() == 2);
+  CHECK(stats["regions"][0]["id"] == 10);
+  CHECK(stats["regions"][1]["id"] == 20);
+  for (const json& region : stats["regions"]) CHECK(region["volume"].get<double>() == Approx(1));
+  // The second region has a volume bound in the file.
+  CHECK(stats["regions"][1]["tetrahedra"].get<int>() >= 256);
+
+  REQUIRE(sandbox.run(arguments + "b.json").exit_code == 0);
+  CHECK(json::parse(file_text(sandbox / "b.json"))["mesh_checksum"] == stats["mesh_checksum"]);
+  REQUIRE(sandbox.run(arguments + "c.json --ignore-region-sizes").exit_code == 0);
+  CHECK(json::parse(file_text(sandbox / "c.json"))["tetrahedra"] < stats["tetrahedra"]);
+}
+
+TEST_CASE("sizes bound the circumradii", "[apps]") {
+  const Sandbox sandbox;
+  const auto tetrahedra = [&sandbox](const std::string& options) {
+    const Run run =
+        sandbox.run("mesh " + shape("cube.poly") + " --quiet -o out.mesh --stats s.json " + options);
+    REQUIRE(run.exit_code == 0);
+    return json::parse(file_text(sandbox / "s.json"))["tetrahedra"].get<int>();
+  };
+  const int coarse = tetrahedra("--size 0.4");
+  const int corner = tetrahedra("--size 0.4 --refine-box 0,0,0,0.25,0.25,0.25:0.1");
+  const int fine = tetrahedra("--size 0.1");
+  CHECK(coarse < corner);
+  CHECK(corner < fine);
+  CHECK(tetrahedra("--refine-box=-1,-1,-1,2,2,2:0.1 --refine-box -2,-2,-2,0.5,2,2:0.4") == fine);
+}
+
+TEST_CASE("a vertex budget stops the run with exit code 4 and a valid mesh", "[apps]") {
+  const Sandbox sandbox;
+  const Run run = sandbox.run("mesh " + shape("cube.poly") +
+                              " --size 0.05 --max-vertices 500 -o out.mesh --stats s.json");
+  CHECK(run.exit_code == 4);
+  CHECK(run.err.rfind("pgdr: ", 0) == 0);
+  const json stats = json::parse(file_text(sandbox / "s.json"));
+  CHECK(stats["stop"] == "vertex_budget");
+  CHECK(stats["vertices"].get<int>() <= 500);
+  const Run check = sandbox.run("check out.mesh --radius-edge-ratio 1e9 --plc " + shape("cube.poly"));
+  INFO(check.out << check.err);
+  CHECK(check.exit_code == 0);
+}
+
+TEST_CASE("Ctrl-C stops the run with exit code 4 and a valid mesh", "[apps]") {
+  const Sandbox sandbox;
+  const std::string program = pgdr_test::app().string();
+  const std::string input = pgdr_test::data_file("cube.poly").string();
+  const std::string output = (sandbox / "out.mesh").string();
+  // Not through a shell: it would have background jobs ignore the signal.
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_RDWR);
+    dup2(nowhere, 2);
+    execl(program.c_str(), program.c_str(), "mesh", input.c_str(), "--size", "0.004", "--quiet", "-o",
+          output.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // into the refinement, which takes minutes
+  REQUIRE(kill(child, SIGINT) == 0);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 4);
+  CHECK(sandbox.names() == std::set<std::string>{"out.mesh"});
+  CHECK(file_text(output).find("Tetrahedra") != std::string::npos);
+}

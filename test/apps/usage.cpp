@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options that make no sense: exit code 2 and one sentence, before anything is read or written.
+#include <string>
+
+#include "program.h"
+
+using pgdr_test::check_fails;
+using pgdr_test::Run;
+using pgdr_test::Sandbox;
+using pgdr_test::shape;
+
+TEST_CASE("help and version", "[apps]") {
+  const Sandbox sandbox;
+  const Run version = sandbox.run("--version");
+  CHECK(version.exit_code == 0);
+  CHECK(version.out.rfind("pgdr ", 0) == 0);
+  CHECK(version.err.empty());
+  const Run help = sandbox.run("--help");
+  CHECK(help.exit_code == 0);
+  for (const char* word : {"mesh", "check", "info"}) CHECK(help.out.find(word) != std::string::npos);
+  const Run mesh_help = sandbox.run("mesh --help");
+  CHECK(mesh_help.exit_code == 0);
+  for (const char* option : {"--size", "--refine-box", "--radius-edge-ratio", "--coplanar-tolerance",
+                             "--triangulate", "--ignore-region-sizes", "--min-edge-length", "--max-vertices",
+                             "--threads", "--verify", "--quiet", "--stats", "--nested", "--output"})
+    CHECK(mesh_help.out.find(option) != std::string::npos);
+}
+
+TEST_CASE("a command line that is incomplete or unknown", "[apps]") {
+  const Sandbox sandbox;
+  check_fails(sandbox, "", 2, {"command"});
+  check_fails(sandbox, "knit", 2, {"knit"});
+  check_fails(sandbox, "mesh " + shape("cube.poly"), 2, {"-o"});
+  check_fails(sandbox, "mesh -o out.vtu", 2, {"INPUT"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --fast", 2, {"--fast"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " " + shape("cube.poly") + " -o out.vtu", 2,
+              {"cube.poly"});
+  check_fails(sandbox, "check", 2, {"MESH"});
+  check_fails(sandbox, "info", 2, {"INPUT"});
+}
+
+TEST_CASE("options of mesh that make no sense", "[apps]") {
+  const Sandbox sandbox;
+  const std::string mesh = "mesh " + shape("cube.poly") + " -o out.vtu ";
+  for (const char* value : {"0", "-1", "nan", "inf", "abc", "''"})
+    check_fails(sandbox, mesh + "--size=" + value, 2, {"--size"});
+  check_fails(sandbox, mesh + "--size -1", 2, {"--size"});
+  check_fails(sandbox, mesh + "--radius-edge-ratio 1.9", 2, {"--radius-edge-ratio", "at least 2", "because"});
+  check_fails(sandbox, mesh + "--radius-edge-ratio nan", 2, {"--radius-edge-ratio"});
+  check_fails(sandbox, mesh + "--coplanar-tolerance=-1", 2, {"--coplanar-tolerance"});
+  check_fails(sandbox, mesh + "--coplanar-tolerance 1", 2, {"--coplanar-tolerance"});
+  check_fails(sandbox, mesh + "--min-edge-length 0", 2, {"--min-edge-length"});
+  check_fails(sandbox, mesh + "--max-vertices 0", 2, {"--max-vertices"});
+  check_fails(sandbox, mesh + "--max-vertices=-5", 2, {"--max-vertices"});
+  check_fails(sandbox, mesh + "--threads 0", 2, {"--threads"});
+  check_fails(sandbox, mesh + "--threads 1.5", 2, {"--threads"});
+  check_fails(sandbox, mesh + "--nested sometimes", 2, {"--nested"});
+  check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,1", 2, {"--refine-box"});
+  check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,0:0.1", 2, {"--refine-box", "empty"});
+  check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,1:0", 2, {"--refine-box", "positive"});
+}
+
+TEST_CASE("outputs that make no sense", "[apps]") {
+  const Sandbox sandbox;
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.stl", 2, {"out.stl", ".vtu", ".mesh"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out", 2, {"'out'"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu -o out.vtk", 2, {"out.vtk"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu -o ./out.vtu", 2, {"out.vtu", "twice"});
+  check_fails(sandbox, "info " + shape("cube.poly") + " --write-plc out.off", 2, {"out.off", ".poly"});
+  check_fails(sandbox, "check out.vtu", 2, {"out.vtu", ".mesh"});
+
+  const std::string cube = pgdr_test::file_text(pgdr_test::data_file("cube.poly"));
+  sandbox.write("cube.poly", cube);
+  check_fails(sandbox, "mesh cube.poly -o out.vtu --stats cube.poly", 2, {"cube.poly", "overwritten"});
+  check_fails(sandbox, "info cube.poly --write-plc cube.poly", 2, {"cube.poly", "overwritten"});
+  CHECK(pgdr_test::file_text(sandbox / "cube.poly") == cube);
+}

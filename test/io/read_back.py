@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads a mesh that pgdr wrote with meshio and, if it is there, VTK, and compares it with what was told.
+
+usage: read_back.py MESH POINTS TETRAHEDRA [--exempt N] [--volume V]
+
+Exit code 0: all equal; 1: not (one line says what); 77: meshio is not installed.
+"""
+import argparse
+import sys
+
+
+def tetrahedra_of(mesh):
+    import numpy
+
+    blocks = [block.data for block in mesh.cells if block.type == "tetra"]
+    return numpy.concatenate(blocks) if blocks else numpy.zeros((0, 4), dtype=int)
+
+
+def signed_volumes(points, tetrahedra):
+    import numpy
+
+    a, b, c, d = (points[tetrahedra[:, i]] for i in range(4))
+    return numpy.einsum("ij,ij->i", b - a, numpy.cross(c - a, d - a)) / 6
+
+
+def expect(what, found, expected):
+    if found != expected:
+        sys.exit(f"{what}: {found}, expected {expected}")
+
+
+def check_with_meshio(arguments):
+    import meshio
+
+    mesh = meshio.read(arguments.mesh)
+    tetrahedra = tetrahedra_of(mesh)
+    expect("points in meshio", len(mesh.points), arguments.points)
+    expect("tetrahedra in meshio", len(tetrahedra), arguments.tetrahedra)
+    if len(tetrahedra):
+        volumes = signed_volumes(mesh.points, tetrahedra)
+        expect("all tetrahedra positively oriented", bool((volumes > 0).all()), True)
+        expected = arguments.volume
+        if expected is not None and abs(volumes.sum() - expected) > 1e-9 * abs(expected):
+            sys.exit(f"volume: {volumes.sum()}, expected {expected}")
+    if arguments.mesh.endswith(".vtu"):
+        data = {name: values[0] for name, values in mesh.cell_data.items()}
+        expect("cell data", sorted(data), ["exempt", "min_dihedral_angle", "radius_edge_ratio", "region"])
+        expect("point data", "reference" in mesh.point_data, True)
+        if len(tetrahedra):
+            ratios = data["radius_edge_ratio"]
+            expect("ratios at least that of the regular tetrahedron", bool((ratios > 0.612).all()), True)
+            angles = data["min_dihedral_angle"]
+            expect("angles in range", bool(((angles >= 0) & (angles < 70.6)).all()), True)
+        if arguments.exempt is not None:
+            expect("exempt tetrahedra", int(data["exempt"].sum()), arguments.exempt)
+
+
+def check_with_vtk(arguments):
+    try:
+        from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    except ImportError:
+        print("vtk is not installed: left out")
+        return
+    errors = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(errors)
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(arguments.mesh)
+    reader.Update()
+    expect("messages of VTK", errors.GetOutput(), "")
+    grid = reader.GetOutput()
+    expect("points in VTK", grid.GetNumberOfPoints(), arguments.points)
+    expect("cells in VTK", grid.GetNumberOfCells(), arguments.tetrahedra)
+    vtk_tetra = 10
+    for cell in {0, grid.GetNumberOfCells() - 1} if arguments.tetrahedra else ():
+        expect("cell type", grid.GetCellType(cell), vtk_tetra)
+    names = [grid.GetCellData().GetArrayName(i) for i in range(grid.GetCellData().GetNumberOfArrays())]
+    expect("cell data in VTK", sorted(names), ["exempt", "min_dihedral_angle", "radius_edge_ratio", "region"])
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("mesh")
+    parser.add_argument("points", type=int)
+    parser.add_argument("tetrahedra", type=int)
+    parser.add_argument("--exempt", type=int)
+    parser.add_argument("--volume", type=float)
+    arguments = parser.parse_args()
+    try:
+        import meshio  # noqa: F401
+    except ImportError:
+        print("meshio is not installed")
+        sys.exit(77)
+    check_with_meshio(arguments)
+    if arguments.mesh.endswith(".vtu"):
+        check_with_vtk(arguments)
+    print("equal")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/quality/measures.h>
+
+#include <cmath>
+#include <random>
+
+#include "catch.h"
+
+namespace {
+
+using P = std::array<double, 3>;
+
+const P a{1, 1, 1}, b{-1, 1, -1}, c{1, -1, -1}, d{-1, -1, 1};  // regular, edges 2 sqrt(2)
+
+TEST_CASE("The regular tetrahedron has its closed-form measures", "[quality]") {
+  REQUIRE(pgdr::signed_volume(a, b, c, d) == Approx(8.0 / 3));
+  REQUIRE(pgdr::signed_volume(b, a, c, d) == Approx(-8.0 / 3));
+  REQUIRE(pgdr::squared_circumradius(a, b, c, d) == Approx(3));
+  REQUIRE(pgdr::shortest_edge(a, b, c, d) == Approx(std::sqrt(8.0)));
+  REQUIRE(pgdr::radius_edge_ratio(a, b, c, d) == Approx(std::sqrt(6.0) / 4));
+  for (const double angle : pgdr::dihedral_angles_deg(a, b, c, d))
+    REQUIRE(angle == Approx(std::acos(1.0 / 3) * 180 / std::acos(-1.0)));
+}
+
+TEST_CASE("The corner of a cube has its closed-form measures", "[quality]") {
+  const P o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  REQUIRE(pgdr::signed_volume(o, x, y, z) == Approx(1.0 / 6));
+  REQUIRE(pgdr::squared_circumradius(o, x, y, z) == Approx(0.75));
+  const auto angles = pgdr::dihedral_angles_deg(o, x, y, z);
+  const double oblique = std::atan(std::sqrt(2.0)) * 180 / std::acos(-1.0);
+  for (std::size_t i = 0; i < 3; ++i) REQUIRE(angles[i] == Approx(90));
+  for (std::size_t i = 3; i < 6; ++i) REQUIRE(angles[i] == Approx(oblique));
+  REQUIRE(pgdr::smallest_dihedral_angle_deg(o, x, y, z) == Approx(oblique));
+}
+
+TEST_CASE("Slivers are measured exactly", "[quality]") {
+  // A square with diagonal 2, two opposite corners lifted by h.
+  for (const double h : {1e-3, 1e-8, 1e-15, 1e-21, 1e-100}) {
+    const P p{1, 0, 0}, q{0, 1, h}, r{-1, 0, 0}, s{0, -1, h};
+    CAPTURE(h);
+    REQUIRE(pgdr::signed_volume(p, q, r, s) == Approx(2 * h / 3).epsilon(1e-12));
+    REQUIRE(pgdr::squared_circumradius(p, q, r, s) == Approx(1 + h * h / 4).epsilon(1e-12));
+    REQUIRE(pgdr::smallest_dihedral_angle_deg(p, q, r, s) ==
+            Approx(std::atan(h * std::sqrt(2 + h * h)) * 180 / std::acos(-1.0)).epsilon(1e-9));
+  }
+  // The same far from the origin, with coordinates that are multiples of u.
+  const double u = std::ldexp(1.0, -30);
+  const P p{1000 + 3 * u, 2000, 7}, q{1000, 2000 + 5 * u, 7 + u}, r{1000 - 3 * u, 2000, 7},
+      s{1000, 2000 - 5 * u, 7 + u};
+  REQUIRE(pgdr::signed_volume(p, q, r, s) == 10 * u * u * u);
+}
+
+TEST_CASE("Flat tetrahedra have no volume and an infinite ratio", "[quality]") {
+  const P p{0, 0, 0}, q{1, 0, 0}, r{0, 1, 0}, s{0.3, 0.4, 0};
+  REQUIRE(pgdr::signed_volume(p, q, r, s) == 0);
+  REQUIRE(std::isinf(pgdr::squared_circumradius(p, q, r, s)));
+  REQUIRE(std::isinf(pgdr::radius_edge_ratio(p, q, r, s)));
+  REQUIRE(pgdr::smallest_dihedral_angle_deg(p, q, r, s) == 0);
+  // In the plane x = z, with coordinates that are no dyadic fractions.
+  const P t{0.1, 0.1, 0.1}, v{0.7, 0.7, 0.7}, w{0.1, 0.3, 0.1}, x{0.7, 0.9, 0.7};
+  REQUIRE(pgdr::signed_volume(t, v, w, x) == 0);
+}
+
+TEST_CASE("Measures agree with rational arithmetic on random tetrahedra, thin ones included", "[quality]") {
+  std::mt19937_64 random(20240501);
+  const auto uniform = [&] { return std::ldexp(double(random() >> 11), -53) - 0.5; };
+  for (int i = 0; i < 3000; ++i) {
+    const double flat = std::pow(10, -double(i % 18));
+    std::array<P, 4> t;
+    const P n{uniform(), uniform(), uniform()};
+    for (P& p : t) {
+      const double x = uniform(), y = uniform(), z = flat * uniform();
+      p = {x + z * n[0], y + z * n[1], z * n[2] + 0.3 * x - 0.7 * y};
+    }
+    const auto& [p, q, r, s] = t;
+    const double exact = pgdr::quality_detail::exact_squared_circumradius(p, q, r, s);
+    const double det = CGAL::to_double(pgdr::quality_detail::determinant<CGAL::Exact_rational>(p, q, r, s));
+    REQUIRE(pgdr::squared_circumradius(p, q, r, s) == Approx(exact).epsilon(1e-10));
+    REQUIRE(pgdr::signed_volume(p, q, r, s) == Approx(det / 6).epsilon(1e-10));
+  }
+}
+
+}  // namespace
