@@ -10,6 +10,7 @@
 
 #include <pgdr/conforming/conforming_delaunay_3.h>
 #include <pgdr/conforming/subdomains_3.h>
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/parameters.h>
@@ -17,7 +18,9 @@
 #include <pgdr/refinement/indexed_mesh_of_3.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/refined_mesh_3.h>
+#include <pgdr/sizing/box_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
+#include <pgdr/sizing/uniform_sizing_field.h>
 
 namespace pgdr {
 
@@ -163,5 +166,26 @@ Refined_mesh_3<K> refine_mesh_3(const Piecewise_linear_complex_3<K>& plc, const 
 }
 
 }  // namespace pgdr
+
+// What the library compiles once for the default kernel, so that programs that use it build fast;
+// src/default_instantiations.cpp holds the definitions.
+#ifndef PGDR_INSTANTIATE
+#define PGDR_INSTANTIATE extern template
+#endif
+namespace pgdr {
+PGDR_INSTANTIATE Domain_3<Default_kernel> make_domain_3(const Plc&, double, bool);
+PGDR_INSTANTIATE std::vector<Input_problem> validate_domain_3(const Domain_3<Default_kernel>&, std::size_t);
+PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Uniform_sizing_field&,
+                                                             const Parameters&);
+PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Command_line_sizing&,
+                                                             const Parameters&);
+PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Uniform_sizing_field&,
+                                                             const Parameters&);
+PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Command_line_sizing&,
+                                                             const Parameters&);
+PGDR_INSTANTIATE Indexed_mesh_3 indexed_mesh_3(const Refined_mesh_3<Default_kernel>&);
+PGDR_INSTANTIATE Indexed_mesh_3 indexed_mesh_3(Refined_mesh_3<Default_kernel>&&);
+}  // namespace pgdr
+#undef PGDR_INSTANTIATE
 
 #endif

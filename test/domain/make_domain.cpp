@@ -146,7 +146,9 @@ TEST_CASE("an explicit segment inside a polygon is inside the facet") {
   plc.segments.push_back({0, 3, 5});
   Plc polygon = box();
   polygon.facets[0].polygons.push_back({0, 3});
-  for (const Plc& p : {plc, polygon}) {
+  Plc elsewhere = box();
+  elsewhere.facets.push_back({{{0, 3}}, {}, 0});
+  for (const Plc& p : {plc, polygon, elsewhere}) {
     const auto d = make_domain_3(p);
     check_invariants(d);
     CHECK(d.facets.size() == 6);

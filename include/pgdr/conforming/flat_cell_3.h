@@ -26,12 +26,12 @@ std::uint32_t subfacet_of_flat_cell(const Constraint_complex_3<Tr>& complex, typ
 template <class Tr>
 bool hand_to_outside(Constraint_complex_3<Tr>& complex, typename Tr::Cell_handle c) {
   constexpr std::uint32_t none = Constraint_complex_3<Tr>::none;
-  int marked[2], free[2], n_marked = 0, n_free = 0;
+  int marked[2], n_marked = 0, n_free = 0;
   for (int i = 0; i < 4; ++i) {
     if (c->subfacet(i) != none && n_marked < 2)
       marked[n_marked++] = i;
-    else if (c->subfacet(i) == none && n_free < 2)
-      free[n_free++] = i;
+    else
+      n_free += c->subfacet(i) == none;
   }
   if (n_marked != 2 || n_free != 2) return false;
   const std::uint32_t t = c->subfacet(marked[0]), u = c->subfacet(marked[1]);

@@ -217,6 +217,11 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
     const Index_pair ends = sorted_pair(merged[s.source], merged[s.target]);
     if (ends[0] != ends[1]) segments.push_back({ends, s.marker});
   }
+  // Also those named by a facet's two-vertex polygons: they may lie inside other facets.
+  for (const auto& f : plc.facets)
+    for (const auto& p : f.polygons)
+      if (p.size() == 2 && p[0] < merged.size() && p[1] < merged.size() && merged[p[0]] != merged[p[1]])
+        segments.push_back({sorted_pair(merged[p[0]], merged[p[1]]), 0});
   std::sort(segments.begin(), segments.end());
   Segment_lookup lookup(segments, points.size());
   Facet_reader reader(points, domain.tolerance, triangulate, plc.first_index);

@@ -23,7 +23,7 @@ namespace pgdr {
 ///
 /// A circumcenter that encroaches a subsegment or subfacet, or that would delete one, is not inserted; the feature
 /// is split instead. A tetrahedron is given up only next to a small input angle, when every such split would make
-/// an edge shorter than the tetrahedron's own (or than half its circumradius, if that is less).
+/// an edge too short (`shortest_allowed`).
 template <class Tr, class Criteria>
 class Delaunay_leaf_refiner_3 {
  public:
@@ -74,6 +74,7 @@ class Delaunay_leaf_refiner_3 {
         continue;
       }
       if (worklist.poor.empty()) break;
+      prefetch(worklist.poor);
       const Cell_id id = worklist.poor.front();
       worklist.poor.pop_front();
       if (id.is_live() && id.cell->subdomain() != 0) refine(id, region, worklist, result);
@@ -82,6 +83,21 @@ class Delaunay_leaf_refiner_3 {
   }
 
  private:
+  /// The queue walks all over the mesh; asking for what comes next hides most of the way to memory.
+  static void prefetch(const std::deque<Cell_id>& queue) {
+    constexpr std::size_t far = 16, near = 8;
+    if (queue.size() <= far) return;
+    const char* next = reinterpret_cast<const char*>(&*queue[far].cell);
+    __builtin_prefetch(next);
+    __builtin_prefetch(next + 64);
+    if (!queue[near].is_live()) return;
+    for (int i = 0; i < 4; ++i) {
+      __builtin_prefetch(&*queue[near].cell->vertex(i));
+      __builtin_prefetch(&*queue[near].cell->neighbor(i));
+      __builtin_prefetch(reinterpret_cast<const char*>(&*queue[near].cell->neighbor(i)) + 64);
+    }
+  }
+
   void refine(const Cell_id& id, const Leaf_region& region, Worklist& worklist, Drain_result& result) {
     const Tetrahedron_points corners = points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
@@ -100,7 +116,7 @@ class Delaunay_leaf_refiner_3 {
     features_.features().gather(features_.complex(), cavity);
     if (collect_obstacles(p)) {
       cavity.abandon();
-      if (split_obstacle(ball, corners)) {
+      if (split_obstacle(id.cell, ball, corners)) {
         ++result.inserted;
         take_fresh_cells(worklist);
         if (id.is_live()) worklist.poor.push_back(id);
@@ -182,9 +198,23 @@ class Delaunay_leaf_refiner_3 {
     return true;
   }
 
-  bool split_obstacle(const Tetrahedron_ball& ball, const Tetrahedron_points& corners) {
-    const double radius = std::sqrt(ball.squared_radius);
-    const Split_guard guard{std::min(std::sqrt(ball.squared_shortest), 0.5 * radius), corners, 4, 4 * radius};
+  /// The length that a split on behalf of a tetrahedron may not go below next to small angles: half its shortest
+  /// edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on the shell of one
+  /// acute corner the radius of the shell. A tetrahedron that is only too large may also halve its circumradius.
+  double shortest_allowed(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {
+    double allowed = 0.5 * std::sqrt(ball.squared_shortest);
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) {
+        const double d2 = squared_distance(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]);
+        if (d2 > ball.squared_shortest) continue;
+        const double shell = std::min(c->vertex(i)->insertion_radius(), c->vertex(j)->insertion_radius());
+        if (shell * shell > d2) allowed = std::max(allowed, shell);
+      }
+    return criteria_.is_over_ratio(ball) ? allowed : std::min(allowed, 0.5 * std::sqrt(ball.squared_radius));
+  }
+
+  bool split_obstacle(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) {
+    const Split_guard guard{shortest_allowed(c, ball, corners), corners, 4, 4 * std::sqrt(ball.squared_radius)};
     for (const Piece_id& s : segments_in_the_way_)
       if (features_.split_subsegment(s.slot, Split_reason::encroached, guard) == Split_outcome::inserted) return true;
     if (!segments_in_the_way_.empty()) return false;

@@ -97,110 +97,151 @@ std::vector<typename Mesh_triangulation_3<K>::Vertex_handle> numbered_vertices(c
 
 }  // namespace internal
 
+namespace internal {
+
+/// Gathers a refined mesh into plain arrays. Two steps, so that the triangulation can go in between: a large mesh
+/// need not be held twice.
+template <class K>
+class Indexed_mesh_builder_3 {
+  using Mesh = Refined_mesh_3<K>;
+  using Tr = typename Mesh::Triangulation;
+  using Complex = typename Mesh::Complex;
+  using Cell_handle = typename Tr::Cell_handle;
+
+ public:
+  /// All that needs the triangulation.
+  void gather(const Mesh& mesh) {
+    gather_points(mesh);
+    const Tr& tr = mesh.triangulation();
+    std::size_t count = 0;
+    for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) count += c->subdomain() != 0;
+    tetrahedra_.reserve(count);
+    for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c)
+      if (c->subdomain() != 0) gather_cell(mesh, c);
+    gather_edges(mesh);
+  }
+
+  /// Sorts what was gathered into canonical order.
+  Indexed_mesh_3 finish() {
+    const auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
+    std::sort(tetrahedra_.begin(), tetrahedra_.end(), by_vertices);
+    std::sort(triangles_.begin(), triangles_.end(), by_vertices);
+    std::sort(edges_.begin(), edges_.end(), by_vertices);
+    for (const Element<4>& t : exempt_)
+      out_.exempt.push_back(static_cast<std::uint32_t>(
+          std::lower_bound(tetrahedra_.begin(), tetrahedra_.end(), t, by_vertices) - tetrahedra_.begin()));
+    std::sort(out_.exempt.begin(), out_.exempt.end());
+    split(tetrahedra_, out_.tetrahedra, out_.tetrahedron_references);
+    split(triangles_, out_.triangles, out_.triangle_references);
+    split(edges_, out_.edges, out_.edge_references);
+    return std::move(out_);
+  }
+
+ private:
+  template <std::size_t N>
+  struct Element {
+    std::array<std::uint32_t, N> vertices;
+    std::int32_t reference;
+  };
+
+  template <class From, std::size_t N>
+  static void split(std::vector<From>& from, std::vector<std::array<std::uint32_t, N>>& vertices,
+                    std::vector<std::int32_t>& references) {
+    vertices.reserve(from.size());
+    references.reserve(from.size());
+    for (const auto& e : from) {
+      vertices.push_back(e.vertices);
+      references.push_back(e.reference);
+    }
+    from = {};
+  }
+
+  void gather_points(const Mesh& mesh) {
+    const auto vertices = numbered_vertices(mesh);
+    out_.points.reserve(vertices.size());
+    out_.point_references.reserve(vertices.size());
+    out_.point_dimensions.reserve(vertices.size());
+    for (const auto v : vertices) {
+      const Vec_3 p = position(v);
+      out_.points.push_back({p.x, p.y, p.z});
+      out_.point_references.push_back(v->in_dimension() == 0 ? mesh.domain().vertex_markers[v->index()] : 0);
+      out_.point_dimensions.push_back(static_cast<std::uint8_t>(v->in_dimension()));
+    }
+  }
+
+  void gather_cell(const Mesh& mesh, Cell_handle c) {
+    const double bound = mesh.radius_edge_ratio() * mesh.radius_edge_ratio();
+    const auto b = tetrahedron_ball(
+        {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))});
+    tetrahedra_.push_back({canonical(std::array<std::uint32_t, 4>{c->vertex(0)->number(), c->vertex(1)->number(),
+                                                                  c->vertex(2)->number(), c->vertex(3)->number()}),
+                           id_of(mesh, c)});
+    if (b.squared_radius > bound * b.squared_shortest) exempt_.push_back(tetrahedra_.back());
+    if (!c->has_subfacet()) return;
+    for (int i = 0; i < 4; ++i)
+      if (c->subfacet(i) != Complex::none) gather_subfacet(mesh, c, i);
+  }
+
+  static int id_of(const Mesh& mesh, Cell_handle c) {
+    return mesh.subdomains()[static_cast<std::size_t>(c->subdomain())].id;
+  }
+
+  /// Each subfacet is seen from both sides and written once: by the meshed side, between two subdomains by that with
+  /// the smaller id, inside one by the side that sees it clockwise about its facet's normal.
+  void gather_subfacet(const Mesh& mesh, Cell_handle c, int i) {
+    const auto& t = mesh.complex().subfacet(c->subfacet(i));
+    std::array<std::uint32_t, 3> seen, stored;
+    for (int k = 0; k < 3; ++k) {
+      seen[static_cast<std::size_t>(k)] = c->vertex(Tr::vertex_triple_index(i, k))->number();
+      stored[static_cast<std::size_t>(k)] = t.vertices[static_cast<std::size_t>(k)]->number();
+    }
+    seen = canonical(seen);
+    const Cell_handle n = c->neighbor(i);
+    if (n->subdomain() != 0) {
+      const int here = id_of(mesh, c), there = id_of(mesh, n);
+      if (here != there ? here > there : canonical(stored) != seen) return;
+    }
+    triangles_.push_back({seen, mesh.domain().facets[t.facet].marker});
+  }
+
+  void gather_edges(const Mesh& mesh) {
+    for (std::uint32_t i = 0; i < mesh.complex().subsegment_slots(); ++i) {
+      const auto& s = mesh.complex().subsegment(i);
+      if (!s.alive || !s.present) continue;
+      const std::uint32_t a = s.vertices[0]->number(), b = s.vertices[1]->number();
+      if (a == Tr::Vertex::none || b == Tr::Vertex::none) continue;
+      edges_.push_back({{std::min(a, b), std::max(a, b)}, mesh.domain().segments[s.segment].marker});
+    }
+  }
+
+  Indexed_mesh_3 out_;
+  std::vector<Element<4>> tetrahedra_;
+  std::vector<Element<4>> exempt_;
+  std::vector<Element<3>> triangles_;
+  std::vector<Element<2>> edges_;
+};
+
+}  // namespace internal
+
 /// The meshed cells as plain arrays in canonical order: the same for the same mesh, however it was made.
 ///
 /// Subfacets are oriented outwards from the meshed side, between two subdomains from the one with the smaller id.
 template <class K>
 Indexed_mesh_3 indexed_mesh_3(const Refined_mesh_3<K>& mesh) {
-  using Tr = Mesh_triangulation_3<K>;
-  using Complex = Constraint_complex_3<Tr>;
-  const Tr& tr = mesh.triangulation();
-  const Complex& complex = mesh.complex();
-  const auto& domain = mesh.domain();
-  Indexed_mesh_3 out;
-
-  const auto vertices = internal::numbered_vertices(mesh);
-  out.points.reserve(vertices.size());
-  out.point_references.reserve(vertices.size());
-  out.point_dimensions.reserve(vertices.size());
-  for (const auto v : vertices) {
-    const Vec_3 p = position(v);
-    out.points.push_back({p.x, p.y, p.z});
-    out.point_references.push_back(v->in_dimension() == 0 ? domain.vertex_markers[v->index()] : 0);
-    out.point_dimensions.push_back(static_cast<std::uint8_t>(v->in_dimension()));
-  }
-
-  struct Tetrahedron {
-    std::array<std::uint32_t, 4> vertices;
-    std::int32_t reference;
-    bool exempt;
-  };
-  struct Triangle {
-    std::array<std::uint32_t, 3> vertices;
-    std::int32_t reference;
-  };
-  const double bound = mesh.radius_edge_ratio() * mesh.radius_edge_ratio();
-  std::vector<Tetrahedron> tetrahedra;
-  std::vector<Triangle> triangles;
-  std::size_t count = 0;
-  for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) count += c->subdomain() != 0;
-  tetrahedra.reserve(count);
-  for (auto it = tr.finite_cells_begin(); it != tr.finite_cells_end(); ++it) {
-    const typename Tr::Cell_handle c = it;
-    if (c->subdomain() == 0) continue;
-    const auto b = tetrahedron_ball(
-        {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))});
-    tetrahedra.push_back({internal::canonical(std::array<std::uint32_t, 4>{
-                              c->vertex(0)->number(), c->vertex(1)->number(), c->vertex(2)->number(),
-                              c->vertex(3)->number()}),
-                          mesh.subdomains()[static_cast<std::size_t>(c->subdomain())].id,
-                          b.squared_radius > bound * b.squared_shortest});
-    for (int i = 0; i < 4; ++i) {
-      const std::uint32_t t = c->subfacet(i);
-      if (t == Complex::none) continue;
-      const auto n = c->neighbor(i);
-      const int here = mesh.subdomains()[static_cast<std::size_t>(c->subdomain())].id;
-      const int there = mesh.subdomains()[static_cast<std::size_t>(n->subdomain())].id;
-      // Written once: by the meshed side, by the smaller id, or by the side that its stored orientation faces.
-      const auto& s = complex.subfacet(t);
-      std::array<std::uint32_t, 3> v{c->vertex(tr.vertex_triple_index(i, 0))->number(),
-                                     c->vertex(tr.vertex_triple_index(i, 1))->number(),
-                                     c->vertex(tr.vertex_triple_index(i, 2))->number()};
-      v = internal::canonical(v);
-      if (n->subdomain() != 0) {
-        const bool same_side = internal::canonical(std::array<std::uint32_t, 3>{
-                                   s.vertices[0]->number(), s.vertices[1]->number(), s.vertices[2]->number()}) == v;
-        if (here != there ? here > there : !same_side) continue;
-      }
-      triangles.push_back({v, domain.facets[s.facet].marker});
-    }
-  }
-  std::sort(tetrahedra.begin(), tetrahedra.end(),
-            [](const Tetrahedron& a, const Tetrahedron& b) { return a.vertices < b.vertices; });
-  std::sort(triangles.begin(), triangles.end(),
-            [](const Triangle& a, const Triangle& b) { return a.vertices < b.vertices; });
-  out.tetrahedra.reserve(tetrahedra.size());
-  out.tetrahedron_references.reserve(tetrahedra.size());
-  for (const Tetrahedron& t : tetrahedra) {
-    if (t.exempt) out.exempt.push_back(static_cast<std::uint32_t>(out.tetrahedra.size()));
-    out.tetrahedra.push_back(t.vertices);
-    out.tetrahedron_references.push_back(t.reference);
-  }
-  for (const Triangle& t : triangles) {
-    out.triangles.push_back(t.vertices);
-    out.triangle_references.push_back(t.reference);
-  }
-
-  std::vector<std::pair<std::array<std::uint32_t, 2>, std::int32_t>> edges;
-  for (std::uint32_t i = 0; i < complex.subsegment_slots(); ++i) {
-    const auto& s = complex.subsegment(i);
-    const std::uint32_t a = s.vertices[0]->number(), b = s.vertices[1]->number();
-    if (!s.alive || !s.present || a == Tr::Vertex::none || b == Tr::Vertex::none) continue;
-    edges.push_back({{std::min(a, b), std::max(a, b)}, domain.segments[s.segment].marker});
-  }
-  std::sort(edges.begin(), edges.end());
-  for (const auto& [e, reference] : edges) {
-    out.edges.push_back(e);
-    out.edge_references.push_back(reference);
-  }
-  return out;
+  internal::Indexed_mesh_builder_3<K> builder;
+  builder.gather(mesh);
+  return builder.finish();
 }
 
-/// The same, and frees the triangulation before it returns: a large mesh need not be held twice while it is written.
+/// The same, but frees the triangulation as soon as it can.
 template <class K>
 Indexed_mesh_3 indexed_mesh_3(Refined_mesh_3<K>&& mesh) {
-  const Refined_mesh_3<K> last = std::move(mesh);
-  return indexed_mesh_3(last);
+  internal::Indexed_mesh_builder_3<K> builder;
+  {
+    const Refined_mesh_3<K> last = std::move(mesh);
+    builder.gather(last);
+  }
+  return builder.finish();
 }
 
 }  // namespace pgdr

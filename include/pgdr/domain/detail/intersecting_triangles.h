@@ -39,7 +39,7 @@ class Intersection_finder {
     return result;
   }
 
-  /// Pairs of a segment (its position) and a triangle, ascending.
+  /// Pairs of a segment that belongs to no facet (its position) and a triangle, ascending.
   std::vector<Id_pair> segments_and_triangles(const std::vector<std::array<Index, 2>>& segments) const {
     std::vector<Id_pair> result;
     std::vector<Box> boxes = triangle_boxes_, others = segment_boxes(segments);
@@ -120,7 +120,7 @@ class Intersection_finder {
     };
     const std::size_t i = corner(s[0]), j = corner(s[1]);
     if (i == 3 && j == 3) return CGAL::do_intersect(segment(s[0], s[1]), soup_.triangle(triangle));
-    if (i < 3 && j < 3) return false;
+    if (i < 3 && j < 3) return true;  // along an edge that is no segment of the facet
     const std::size_t k = i < 3 ? i : j;
     const Index other = i < 3 ? s[1] : s[0];
     return soup_.triangle(triangle).has_on(soup_.point(other)) ||
