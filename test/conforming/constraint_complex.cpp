@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/conforming/constraint_complex_3.h>
+
+#include <memory>
+
+#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/initial_complex_3.h>
+#include <pgdr/domain/make_domain_3.h>
+
+#include "catch.h"
+#include "conforming/consistency.h"
+#include "conforming/gridded_box.h"
+#include "mesh/random.h"
+
+using namespace pgdr_test;
+
+namespace {
+
+using K = pgdr::Default_kernel;
+using Tr = pgdr::Mesh_triangulation_3<K>;
+using Complex = pgdr::Constraint_complex_3<Tr>;
+
+/// The complex of a PLC over the triangulation of its vertices, nothing recovered.
+struct Initial {
+  explicit Initial(const Plc& plc) : domain(pgdr::make_domain_3(plc)), complex(domain) {
+    handles = pgdr::insert_domain_vertices(tr, domain);
+    pgdr::build_complex(complex, handles);
+  }
+  std::string fault() const { return Complex_audit<Tr>(tr, complex).sheets(); }
+
+  pgdr::Domain_3<K> domain;
+  Tr tr;
+  Complex complex;
+  std::vector<Tr::Vertex_handle> handles;
+};
+
+}  // namespace
+
+TEST_CASE("The complex of a PLC has its segments and facets", "[conforming]") {
+  for (const Plc& plc : {box(), tilted(box()), tilted(gridded_box(5)), cylinder(12)}) {
+    const Initial initial(plc);
+    CHECK(initial.fault() == "");
+    CHECK(initial.complex.subsegment_slots() == initial.domain.segments.size());
+    std::size_t triangles = 0;
+    for (const auto& f : initial.domain.facets) triangles += f.triangles.size();
+    CHECK(initial.complex.subfacet_slots() == triangles);
+    for (pgdr::Index s = 0; s < initial.domain.segments.size(); ++s) {
+      const auto& ends = initial.domain.segments[s].vertices;
+      const auto slot = initial.complex.find_subsegment(initial.handles[ends[0]], initial.handles[ends[1]]);
+      REQUIRE(slot != Complex::none);
+      CHECK(initial.complex.subsegment(slot).segment == s);
+    }
+  }
+}
+
+TEST_CASE("A box that is its own hull gets no box around it", "[conforming]") {
+  CHECK(pgdr::is_box(pgdr::make_domain_3(box())));
+  CHECK(pgdr::is_box(pgdr::make_domain_3(gridded_box(3))));
+  CHECK(!pgdr::is_box(pgdr::make_domain_3(tilted(box()))));
+  Plc two = box();
+  add_box(two, {2, 0, 0}, {3, 1, 1});
+  CHECK(!pgdr::is_box(pgdr::make_domain_3(two)));
+  CHECK(Initial(box()).tr.number_of_vertices() == 8);
+  const Initial framed(tilted(box()));
+  REQUIRE(framed.tr.number_of_vertices() == 16);
+  for (auto v = framed.tr.finite_vertices_begin(); v != framed.tr.finite_vertices_end(); ++v) {
+    if (v->in_dimension() == 0) continue;
+    CHECK(v->in_dimension() == 4);
+    // A diagonal away, or a little more.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double x = pgdr::to_vec(v->point())[static_cast<int>(i)];
+      const double gap = std::max(framed.domain.lower[i] - x, x - framed.domain.upper[i]);
+      CHECK(gap >= framed.domain.diagonal);
+      CHECK(gap <= 5 * framed.domain.diagonal);
+    }
+  }
+}
+
+TEST_CASE("Halving a subsegment moves its links to the halves", "[conforming]") {
+  Initial initial(box());
+  Complex& complex = initial.complex;
+  const auto a = complex.subsegment(3).vertices[0], b = complex.subsegment(3).vertices[1];
+  const pgdr::Index segment = complex.subsegment(3).segment;
+  const pgdr::Piece_id old = complex.subsegment_id(3);
+  const auto middle = [](auto u, auto w) { return CGAL::midpoint(u->point(), w->point()); };
+  auto v = initial.tr.insert(middle(a, b));
+  v->set_feature(1, segment);
+  CHECK(complex.is_live_subsegment(old));
+  const auto halves = complex.halve_subsegment(3, v);
+  CHECK(complex.find_subsegment(a, b) == Complex::none);
+  CHECK(complex.find_subsegment(a, v) == halves[0]);
+  CHECK(complex.find_subsegment(v, a) == halves[0]);
+  CHECK(complex.find_subsegment(v, b) == halves[1]);
+  CHECK(complex.find_subsegment(b, v) == halves[1]);
+  for (const auto h : halves) {
+    CHECK(complex.subsegment(h).segment == segment);
+    CHECK(!complex.subsegment(h).present);
+  }
+  CHECK(complex.is_on_segment(v, segment));
+  for (const pgdr::Index f : initial.domain.segments[segment].facets) CHECK(complex.is_on_facet(v, f));
+  int facets = 0;
+  for (pgdr::Index f = 0; f < initial.domain.facets.size(); ++f) facets += complex.is_on_facet(v, f);
+  CHECK(facets == 2);
+
+  complex.remove_subsegment(3);
+  CHECK(!complex.is_live_subsegment(old));
+  // Its slot is used again, but is not mistaken for the old one.
+  const auto w = initial.tr.insert(middle(a, v));
+  w->set_feature(1, segment);
+  const auto quarters = complex.halve_subsegment(halves[0], w);
+  CHECK(quarters[0] == 3);
+  CHECK(complex.is_live_subsegment(complex.subsegment_id(3)));
+  CHECK(!complex.is_live_subsegment(old));
+  CHECK(complex.find_subsegment(a, w) == quarters[0]);
+  CHECK(complex.find_subsegment(w, v) == quarters[1]);
+  CHECK(complex.find_subsegment(v, b) == halves[1]);
+  CHECK(complex.find_subsegment(a, v) == Complex::none);
+}
+
+TEST_CASE("Flips keep the neighbours of subfacets in order", "[conforming]") {
+  Initial initial(tilted(gridded_box(8)));
+  Complex& complex = initial.complex;
+  Random random(21);
+  int flips = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const std::uint32_t t = random.below(static_cast<std::uint32_t>(complex.subfacet_slots()));
+    const std::size_t i = random.below(3);
+    const std::uint32_t u = complex.subfacet(t).neighbors[i];
+    if (u & Complex::subsegment_bit) continue;
+    const pgdr::Index facet = complex.subfacet(t).facet;
+    const auto& v = complex.subfacet(t).vertices;
+    const auto apex = v[i], from = v[(i + 1) % 3], to = v[(i + 2) % 3];
+    const auto opposite = complex.subfacet(u).vertices[static_cast<std::size_t>(complex.edge_with_neighbor(u, t))];
+    if (complex.orientation(facet, apex->point(), from->point(), opposite->point()) != CGAL::POSITIVE ||
+        complex.orientation(facet, opposite->point(), to->point(), apex->point()) != CGAL::POSITIVE)
+      continue;
+    const pgdr::Piece_id before = complex.subfacet_id(t), other = complex.subfacet_id(u);
+    complex.flip(t, u);
+    ++flips;
+    CAPTURE(k, t, u);
+    CHECK(!complex.is_live_subfacet(before));
+    CHECK(!complex.is_live_subfacet(other));
+    // The common edge is the other diagonal now.
+    const int edge = complex.edge_with_neighbor(t, u);
+    REQUIRE(edge >= 0);
+    const auto e = static_cast<std::size_t>(edge);
+    const auto p = complex.subfacet(t).vertices[(e + 1) % 3], q = complex.subfacet(t).vertices[(e + 2) % 3];
+    CHECK(((p == apex && q == opposite) || (p == opposite && q == apex)));
+    if (k % 100 == 0) REQUIRE(initial.fault() == "");
+  }
+  CHECK(flips > 500);
+  CHECK(initial.fault() == "");
+}
+
+TEST_CASE("The audit of a complex notices faults", "[conforming]") {
+  // Without this the other tests could pass for the wrong reason.
+  const auto spoiled = [](auto spoil) {
+    Initial initial(tilted(gridded_box(3)));
+    REQUIRE(initial.fault() == "");
+    spoil(initial.complex);
+    return initial.fault();
+  };
+  const auto inner_edge = [](const Complex& c) {
+    for (std::uint32_t t = 0;; ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (!(c.subfacet(t).neighbors[i] & Complex::subsegment_bit)) return std::make_pair(t, i);
+  };
+  CHECK(spoiled([&](Complex& c) {
+          const auto [t, i] = inner_edge(c);
+          c.subfacet(t).neighbors[i] = t;
+        }) != "");
+  CHECK(spoiled([](Complex& c) { c.subsegment(2).subfacets.pop_back(); }) != "");
+  CHECK(spoiled([](Complex& c) { c.subsegment(2).alive = false; }) != "");
+  CHECK(spoiled([](Complex& c) { c.subfacet(2).alive = false; }) != "");
+  CHECK(spoiled([](Complex& c) { std::swap(c.subfacet(4).vertices[0], c.subfacet(4).vertices[1]); }) != "");
+  CHECK(spoiled([](Complex& c) { c.subsegment(1).vertices[0] = c.subsegment(1).vertices[1]; }) != "");
+}
+
+TEST_CASE("Distances to small angles", "[conforming]") {
+  // A prism over a triangle with 30 degrees at the origin: the edge there and both of its ends are acute.
+  Plc prism;
+  const double t = std::tan(std::acos(-1.0) / 6);
+  for (const double z : {0.0, 4.0})
+    for (const auto& [x, y] : {std::array<double, 2>{0, 0}, {3, 0}, {3, 3 * t}}) prism.vertices.emplace_back(x, y, z);
+  for (const std::vector<pgdr::Index>& p : {std::vector<pgdr::Index>{0, 1, 2}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}})
+    prism.facets.push_back({{p}, {}, 0});
+  const auto domain = pgdr::make_domain_3(prism);
+  const pgdr::Acute_neighborhood_3 acute(domain);
+  for (pgdr::Index v = 0; v < 6; ++v) CHECK(acute.is_acute_vertex(v) == (v == 0 || v == 3));
+  Random random(22);
+  int inside = 0;
+  for (int k = 0; k < 500; ++k) {
+    const pgdr::Vec_3 p{random.between(-2, 4), random.between(-2, 4), random.between(-2, 6)};
+    const double beyond = std::max({0.0, -p.z, p.z - 4});
+    const double distance = std::sqrt(p.x * p.x + p.y * p.y + beyond * beyond);
+    CAPTURE(k, p.x, p.y, p.z, distance);
+    CHECK(acute.contains(p, distance * (1 + 1e-9)));
+    CHECK(!acute.contains(p, distance * (1 - 1e-9)));
+    inside += beyond == 0;
+  }
+  CHECK(inside > 100);
+
+  const pgdr::Acute_neighborhood_3 none(pgdr::make_domain_3(tilted(box())));
+  for (pgdr::Index v = 0; v < 8; ++v) CHECK(!none.is_acute_vertex(v));
+  CHECK(!none.contains({0, 0, 0}, 1e9));
+}
