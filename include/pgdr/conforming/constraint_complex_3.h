@@ -64,6 +64,7 @@ class Constraint_complex_3 {
     planes_.reserve(domain.facets.size());
     for (const auto& f : domain.facets) planes_.emplace_back(f.origin, f.normal);
     corner_subsegments_.resize(domain.vertices.size());
+    sides_.resize(domain.facets.size(), {unknown_side, unknown_side});
   }
 
   const Domain& domain() const { return *domain_; }
@@ -190,6 +191,22 @@ class Constraint_complex_3 {
     return planes_[facet].template orientation<Kernel>(a, b, c);
   }
 
+  /// Whether cell c lies on the side of its facet i that the facet's normal points to. \pre facet i is a subfacet
+  bool is_in_front(Cell_handle c, int i) const {
+    // Seen from inside a cell, the vertex triple of its facet is counterclockwise, and so is a subfacet from its front.
+    const auto& t = subfacets_[c->subfacet(i)].vertices;
+    const auto at = std::find(t.begin(), t.end(), c->vertex(Tr::vertex_triple_index(i, 0))) - t.begin();
+    return t[static_cast<std::size_t>(at + 1) % 3] == c->vertex(Tr::vertex_triple_index(i, 1));
+  }
+
+  /// The subdomain in front of a facet (`front`) or behind it, if it is the same all over the facet.
+  static constexpr std::int32_t unknown_side = -1, mixed_side = -2;
+  std::int32_t side(Index facet, bool front) const { return sides_[facet][front]; }
+  void note_side(Index facet, bool front, std::int32_t subdomain) {
+    std::int32_t& s = sides_[facet][front];
+    s = s == unknown_side || s == subdomain ? subdomain : mixed_side;
+  }
+
   /// Position of the edge of subfacet i whose neighbour code is `code`.
   int edge_with_neighbor(std::uint32_t i, std::uint32_t code) const {
     const auto& n = subfacets_[i].neighbors;
@@ -259,6 +276,7 @@ class Constraint_complex_3 {
   std::vector<Facet_plane_3> planes_;
   std::vector<Subsegment> subsegments_;
   std::vector<Subfacet> subfacets_;
+  std::vector<std::array<std::int32_t, 2>> sides_;
   std::vector<std::uint32_t> free_subsegments_;
   std::vector<std::uint32_t> free_subfacets_;
   std::vector<boost::container::small_vector<std::uint32_t, 4>> corner_subsegments_;

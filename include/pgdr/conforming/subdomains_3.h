@@ -29,7 +29,7 @@ class Subdomain_labeler_3 {
   using Cell_handle = typename Tr::Cell_handle;
   using Complex = Constraint_complex_3<Tr>;
 
-  Subdomain_labeler_3(Tr& tr, const Complex& complex) : tr_(tr), complex_(complex) {}
+  Subdomain_labeler_3(Tr& tr, Complex& complex) : tr_(tr), complex_(complex) {}
 
   std::vector<Subdomain> label(bool ignore_region_sizes) {
     flood_all();
@@ -37,12 +37,15 @@ class Subdomain_labeler_3 {
     decide(ignore_region_sizes);
     for (auto c = tr_.all_cells_begin(); c != tr_.all_cells_end(); ++c)
       c->set_subdomain(volumes_[static_cast<std::size_t>(c->subdomain())].label);
+    for (auto c = tr_.all_cells_begin(); c != tr_.all_cells_end(); ++c)
+      for (int i = 0; i < 4; ++i)
+        if (c->subfacet(i) != Complex::none)
+          complex_.note_side(complex_.subfacet(c->subfacet(i)).facet, complex_.is_in_front(c, i), c->subdomain());
     return table_;
   }
 
-  /// Labels cells that were made while a facet was torn, from their neighbours. Appends those that changed.
-  void mend(std::vector<typename Feature_refiner_3<Tr>::Cell_id>& cells,
-            std::vector<typename Feature_refiner_3<Tr>::Cell_id>& changed) {
+  /// Labels cells that were made while a facet was torn, from their neighbours, and empties the list.
+  void mend(std::vector<typename Feature_refiner_3<Tr>::Cell_id>& cells) {
     std::erase_if(cells, [](const auto& id) { return !id.is_live(); });
     std::deque<Cell_handle> front;
     std::vector<std::int32_t> old;
@@ -65,16 +68,36 @@ class Subdomain_labeler_3 {
         front.push_back(n);
       }
     }
+    // What subfacets enclose altogether takes after what was there before, on the same side of the same facet.
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      // Enclosed by subfacets altogether: no cell of it was there before, so what it had inherited stands.
-      if (cells[k].cell->subdomain() == unlabelled) cells[k].cell->set_subdomain(old[k]);
-      if (cells[k].cell->subdomain() != old[k]) changed.push_back(cells[k]);
+      if (cells[k].cell->subdomain() != unlabelled) continue;
+      std::int32_t label = Complex::unknown_side;
+      const std::vector<Cell_handle> part = collect(cells[k].cell);
+      for (const Cell_handle c : part)
+        for (int i = 0; i < 4 && label < 0; ++i)
+          if (c->subfacet(i) != Complex::none)
+            label = complex_.side(complex_.subfacet(c->subfacet(i)).facet, complex_.is_in_front(c, i));
+      for (const Cell_handle c : part) c->set_subdomain(label < 0 ? old[k] : label);
     }
     cells.clear();
   }
 
  private:
-  static constexpr std::int32_t unlabelled = std::numeric_limits<std::int32_t>::min();
+  static constexpr std::int32_t unlabelled = std::numeric_limits<std::int32_t>::min(), visited = unlabelled + 1;
+
+  /// The unlabelled cells around one that can be reached without crossing a subfacet.
+  static std::vector<Cell_handle> collect(Cell_handle seed) {
+    std::vector<Cell_handle> part{seed};
+    seed->set_subdomain(visited);
+    for (std::size_t k = 0; k < part.size(); ++k)
+      for (int i = 0; i < 4; ++i) {
+        const Cell_handle n = part[k]->neighbor(i);
+        if (n->subdomain() != unlabelled || part[k]->subfacet(i) != Complex::none) continue;
+        n->set_subdomain(visited);
+        part.push_back(n);
+      }
+    return part;
+  }
 
   struct Volume {
     int depth = -1;                ///< facets between it and the outside
@@ -170,7 +193,7 @@ class Subdomain_labeler_3 {
   }
 
   Tr& tr_;
-  const Complex& complex_;
+  Complex& complex_;
   std::vector<Volume> volumes_;
   std::vector<Subdomain> table_;
 };

@@ -66,11 +66,15 @@ class Delaunay_leaf_refiner_3 {
         const std::size_t before = features_.inserted();
         features_.step();
         result.inserted += features_.inserted() - before;
-        take_fresh_cells(worklist);
         continue;
       }
+      // Only now, with every facet whole, is it known again on which side of it a new tetrahedron is.
       if (!features_.unlabelled_cells().empty()) {
-        mend_subdomains(worklist);
+        Subdomain_labeler_3<Tr>(tr_, features_.complex()).mend(features_.unlabelled_cells());
+        features_.note_mended();
+      }
+      if (!features_.fresh_cells().empty()) {
+        take_fresh_cells(worklist);
         continue;
       }
       if (worklist.poor.empty()) break;
@@ -118,7 +122,6 @@ class Delaunay_leaf_refiner_3 {
       cavity.abandon();
       if (split_obstacle(id.cell, ball, corners)) {
         ++result.inserted;
-        take_fresh_cells(worklist);
         if (id.is_live()) worklist.poor.push_back(id);
       } else {
         ++result.refused;
@@ -227,13 +230,6 @@ class Delaunay_leaf_refiner_3 {
     for (const Cell_id& id : features_.fresh_cells())
       if (id.is_live()) classify(id.cell, worklist);
     features_.fresh_cells().clear();
-  }
-
-  void mend_subdomains(Worklist& worklist) {
-    features_.note_mended();
-    std::vector<Cell_id> changed;
-    Subdomain_labeler_3<Tr>(tr_, features_.complex()).mend(features_.unlabelled_cells(), changed);
-    for (const Cell_id& id : changed) classify(id.cell, worklist);
   }
 
   /// Gives a flat tetrahedron to the outside if that is what lies beyond its facet; else a point on the facet has to

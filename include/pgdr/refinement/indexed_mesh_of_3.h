@@ -187,12 +187,13 @@ class Indexed_mesh_builder_3 {
   }
 
   /// Each subfacet is seen from both sides and written once: by the meshed side, between two subdomains by that with
-  /// the smaller id, inside one by the side that sees it clockwise about its facet's normal.
+  /// the smaller id, inside one by the side behind the facet, counterclockwise about its normal.
   void gather_subfacet(const Mesh& mesh, Cell_handle c, int i) {
     const auto& t = mesh.complex().subfacet(c->subfacet(i));
     std::array<std::uint32_t, 3> seen, stored;
     for (int k = 0; k < 3; ++k) {
-      seen[static_cast<std::size_t>(k)] = c->vertex(Tr::vertex_triple_index(i, k))->number();
+      // CGAL's triple is counterclockwise from inside the cell.
+      seen[static_cast<std::size_t>(k)] = c->vertex(Tr::vertex_triple_index(i, 2 - k))->number();
       stored[static_cast<std::size_t>(k)] = t.vertices[static_cast<std::size_t>(k)]->number();
     }
     seen = canonical(seen);

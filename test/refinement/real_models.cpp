@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "catch.h"
+
+#include <optional>
+
+#include <pgdr/io/read_plc.h>
+
+#include "conforming/consistency.h"
+#include "inputs.h"
+#include "refinement/refined.h"
+
+using namespace pgdr_test;
+using pgdr::Plc;
+
+namespace {
+
+/// Meshes a model, checks everything, and returns the arrays; nothing where the model is absent.
+std::optional<pgdr::Indexed_mesh_3> checked(const char* name, std::size_t exempt) {
+  const auto path = input_model(name);
+  if (!path) return std::nullopt;
+  CAPTURE(name);
+  pgdr::Parameters parameters;
+  parameters.verify = true;
+  parameters.max_vertices = 2000000;
+  const Mesh mesh = refined(pgdr::read_plc(*path), std::numeric_limits<double>::infinity(), parameters);
+  CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
+  CHECK(inconsistency(mesh.triangulation(), mesh.complex()) == "");
+  auto indexed = pgdr::indexed_mesh_3(mesh);
+  CHECK(failures(pgdr::check_mesh(indexed, &mesh.domain())) == "");
+  // No more than a well-known program leaves.
+  CHECK(indexed.exempt.size() <= exempt);
+  return indexed;
+}
+
+}  // namespace
+
+TEST_CASE("Models with right angles only are meshed without exempt tetrahedra", "[models]") {
+  const auto p = checked("a02_P_polygons.off", 0), joint = checked("a03_joint.off", 0);
+  if (!p || !joint) PGDR_SKIP("the real models are not here");
+}
+
+TEST_CASE("A fandisk is meshed", "[models]") {
+  if (!checked("a05_fandisk.off", 1515)) PGDR_SKIP("the real models are not here");
+}
+
+TEST_CASE("An elephant is meshed", "[models]") {
+  if (!checked("a09_elephant.off", 1375)) PGDR_SKIP("the real models are not here");
+}
+
+TEST_CASE("A knot is meshed", "[models]") {
+  if (!checked("a11_knot2.off", 9644)) PGDR_SKIP("the real models are not here");
+}
+
+TEST_CASE("A bunny is meshed", "[models]") {
+  if (!checked("a14_bunny00.off", 29145)) PGDR_SKIP("the real models are not here");
+}
+
+TEST_CASE("Regions and markers come through", "[models]") {
+  for (const auto& [name, exempt] :
+       {std::pair<const char*, std::size_t>{"a01_tetgen_example.poly", 0}, {"a21_cgal_patches_3regions.poly", 1080}}) {
+    const auto mesh = checked(name, exempt);
+    if (!mesh) PGDR_SKIP("the real models are not here");
+    const Plc plc = pgdr::read_plc(*input_model(name));
+    std::set<std::int32_t> markers, ids;
+    for (const auto& f : plc.facets) markers.insert(f.marker);
+    for (const auto& r : plc.regions) ids.insert(r.id);
+    CAPTURE(name);
+    CHECK(markers.size() > 1);
+    CHECK(ids.size() > 1);
+    CHECK(distinct(mesh->triangle_references) == markers);
+    CHECK(distinct(mesh->tetrahedron_references) == ids);
+  }
+}
