@@ -35,7 +35,8 @@ struct Parameters {
   /// below which double precision no longer separates the points of a facet.
   double min_edge_length = 0;
 
-  /// The refinement stops at this many vertices, with a valid mesh; 0: no limit.
+  /// The refinement stops at this many vertices, plus the few it may take to leave every facet whole; 0: no limit.
+  /// Where not even the recovery of the input fits, the mesh lacks pieces of it, and the statistics say so.
   std::size_t max_vertices = 0;
 
   /// Run CGAL's `is_valid()` on the refined triangulation, Delaunay property included.

@@ -17,12 +17,12 @@ TEST_CASE("A cube is refined with exact constructions", "[refinement]") {
     plc.facets.push_back({{p}, {}, 7});
   pgdr::Parameters parameters;
   parameters.verify = true;
-  const auto size = [](const Kernel::Point_3&) { return 0.25; };
+  const auto size = [](const Kernel::Point_3&) { return 0.2; };
   const auto mesh = pgdr::indexed_mesh_3(pgdr::refine_mesh_3(plc, size, parameters));
   CHECK(mesh.tetrahedra.size() > 200);
   CHECK(mesh.exempt.empty());
   const auto quality = pgdr::mesh_quality(mesh);
-  CHECK(quality.max_circumradius <= 0.25 * (1 + 1e-9));
+  CHECK(quality.max_circumradius <= 0.2 * (1 + 1e-9));
   CHECK(quality.max_radius_edge_ratio <= 2);
   CHECK(quality.volume == Approx(1));
 

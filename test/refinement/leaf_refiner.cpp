@@ -80,7 +80,7 @@ pgdr::Drain_result drain_in_turn(R& refiner, const std::vector<Leaf_region>& lea
   return total;
 }
 
-/// All of space in slabs between multiples of `width` from 0 to 1.
+/// All of space in n slabs, with walls at multiples of 1/n.
 std::vector<Leaf_region> slabs(int n) {
   std::vector<Leaf_region> leaves(static_cast<std::size_t>(n));
   for (std::size_t k = 0; k + 1 < leaves.size(); ++k)
@@ -182,10 +182,11 @@ TEST_CASE("The Delaunay refiner leaves what is outside of its leaf alone", "[ref
   Tr& tr = mesh.triangulation();
   for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) refiner.classify(c, worklist);
   Leaf_region half;
-  half.upper.x = 0.5;
+  half.upper.x = 0.6;
   const auto result = refiner.drain(half, worklist);
   CHECK(worklist.empty());
   CHECK(result.forwarded == worklist.forwarded.size());
+  CHECK(result.inserted > 20);
   REQUIRE(result.forwarded > 0);
   // Everything that is still poor was forwarded, and its circumcenter is not in the leaf.
   std::size_t poor = 0;
@@ -194,15 +195,9 @@ TEST_CASE("The Delaunay refiner leaves what is outside of its leaf alone", "[ref
     const auto center = CGAL::circumcenter(p, c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
     if (CGAL::squared_distance(center, p) <= 0.05 * 0.05 * (1 + 1e-9)) continue;
     ++poor;
-    CHECK(center.x() >= 0.5 - 1e-9);
+    CHECK(center.x() >= 0.6 - 1e-9);
   }
   CHECK(poor > 0);
-  std::size_t left = 0, right = 0;
-  for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v) {
-    left += v->point().x() < 0.4;
-    right += v->point().x() > 0.6;
-  }
-  CHECK(left > 3 * right);
 }
 
 TEST_CASE("The Delaunay refiner stops when it is asked to", "[refinement]") {
@@ -217,7 +212,9 @@ TEST_CASE("The Delaunay refiner stops when it is asked to", "[refinement]") {
   for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) refiner.classify(c, worklist);
   const auto result = refiner.drain(Leaf_region{}, worklist);
   CHECK(result.stopped);
-  CHECK(tr.number_of_vertices() == 50);
-  CHECK(result.inserted == 42);
+  CHECK(tr.number_of_vertices() >= 50);
+  CHECK(tr.number_of_vertices() < 70);  // some to leave every facet whole
+  CHECK(result.inserted + 8 == tr.number_of_vertices());
+  CHECK(inconsistency(tr, mesh.complex()) == "");
   CHECK(!worklist.empty());
 }

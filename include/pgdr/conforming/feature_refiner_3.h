@@ -85,22 +85,12 @@ class Feature_refiner_3 {
   std::size_t unrecovered() const { return unrecovered_; }
 
   /// Handles one request, subsegments before subfacets. \pre not idle.
-  void step() {
-    const bool segment = has_subsegments();
-    std::deque<Request>& queue = segment ? subsegment_queue_ : subfacet_queue_;
-    const Request r = queue.front();
-    queue.pop_front();
-    if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) return;
-    const std::uint32_t slot = r.piece.slot;
-    const bool present = segment ? complex_.subsegment(slot).present : complex_.subfacet(slot).present;
-    if (r.reason == Split_reason::missing && present) return;
-    const Split_outcome outcome =
-        segment ? split_subsegment(slot, r.reason, {r.floor}) : split_subfacet(slot, r.reason, {r.floor});
-    if (outcome == Split_outcome::refused) {
-      unrecovered_ += r.reason == Split_reason::missing;
-    } else if (!segment && complex_.is_live_subfacet(r.piece)) {
-      subfacet_queue_.push_back(r);  // a subsegment was split instead
-    }
+  void step() { handle(false); }
+
+  /// Recovers what is missing and forgets all other requests, so that a run that has to stop leaves every facet
+  /// whole; gives up after `limit` requests.
+  void close(std::size_t limit) {
+    while (!is_idle() && limit-- > 0) handle(true);
   }
 
   /// Splits a subsegment.
@@ -204,6 +194,25 @@ class Feature_refiner_3 {
     std::uint32_t subfacet;
     std::uint32_t subsegment;
   };
+
+  void handle(bool only_missing) {
+    const bool segment = has_subsegments();
+    std::deque<Request>& queue = segment ? subsegment_queue_ : subfacet_queue_;
+    const Request r = queue.front();
+    queue.pop_front();
+    if (only_missing && r.reason != Split_reason::missing) return;
+    if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) return;
+    const std::uint32_t slot = r.piece.slot;
+    const bool present = segment ? complex_.subsegment(slot).present : complex_.subfacet(slot).present;
+    if (r.reason == Split_reason::missing && present) return;
+    const Split_outcome outcome =
+        segment ? split_subsegment(slot, r.reason, {r.floor}) : split_subfacet(slot, r.reason, {r.floor});
+    if (outcome == Split_outcome::refused) {
+      unrecovered_ += r.reason == Split_reason::missing;
+    } else if (!segment && complex_.is_live_subfacet(r.piece)) {
+      subfacet_queue_.push_back(r);  // a subsegment was split instead
+    }
+  }
 
   bool is_acute(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
 

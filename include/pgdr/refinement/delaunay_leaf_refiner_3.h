@@ -41,7 +41,8 @@ class Delaunay_leaf_refiner_3 {
     std::size_t size() const { return poor.size(); }
   };
 
-  /// `should_stop` is asked before every insertion.
+  /// `should_stop` is asked before every insertion. When it says so, facets that are torn at that moment are mended
+  /// first, which may take a few points more.
   Delaunay_leaf_refiner_3(Tr& tr, Features& features, const Criteria& criteria, std::function<bool()> should_stop)
       : tr_(tr), features_(features), criteria_(criteria), should_stop_(std::move(should_stop)) {
     measure_hull();
@@ -60,6 +61,10 @@ class Delaunay_leaf_refiner_3 {
     while (true) {
       if (should_stop_()) {
         result.stopped = true;
+        const std::size_t before = features_.inserted();
+        features_.close(10000);
+        result.inserted += features_.inserted() - before;
+        mend_subdomains();
         break;
       }
       if (!features_.is_idle()) {
@@ -69,10 +74,7 @@ class Delaunay_leaf_refiner_3 {
         continue;
       }
       // Only now, with every facet whole, is it known again on which side of it a new tetrahedron is.
-      if (!features_.unlabelled_cells().empty()) {
-        Subdomain_labeler_3<Tr>(tr_, features_.complex()).mend(features_.unlabelled_cells());
-        features_.note_mended();
-      }
+      mend_subdomains();
       if (!features_.fresh_cells().empty()) {
         take_fresh_cells(worklist);
         continue;
@@ -230,6 +232,12 @@ class Delaunay_leaf_refiner_3 {
     for (const Cell_id& id : features_.fresh_cells())
       if (id.is_live()) classify(id.cell, worklist);
     features_.fresh_cells().clear();
+  }
+
+  void mend_subdomains() {
+    if (features_.unlabelled_cells().empty()) return;
+    Subdomain_labeler_3<Tr>(tr_, features_.complex()).mend(features_.unlabelled_cells());
+    features_.note_mended();
   }
 
   /// Gives a flat tetrahedron to the outside if that is what lies beyond its facet; else a point on the facet has to
