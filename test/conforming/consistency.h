@@ -38,7 +38,8 @@ class Complex_audit {
       if (complex_.orientation(s.facet, s.vertices[0]->point(), s.vertices[1]->point(),
                                s.vertices[2]->point()) != CGAL::POSITIVE)
         return name("subfacet", t) + " is not counterclockwise";
-      area[s.facet] += triangle_area(position(s.vertices[0]), position(s.vertices[1]), position(s.vertices[2]));
+      area[s.facet] +=
+          triangle_area(position(s.vertices[0]), position(s.vertices[1]), position(s.vertices[2]));
     }
     for (std::uint32_t s = 0; s < complex_.subsegment_slots(); ++s)
       if (complex_.subsegment(s).alive)
@@ -169,7 +170,8 @@ class Complex_audit {
       if (t >= complex_.subfacet_slots() || !complex_.subfacet(t).alive || !complex_.subfacet(t).present)
         return "a cell is marked with the dead or missing " + name("subfacet", t);
       for (const Vertex_handle v : complex_.subfacet(t).vertices)
-        if (!c->has_vertex(v) || c->index(v) == i) return "a cell is marked with the wrong " + name("subfacet", t);
+        if (!c->has_vertex(v) || c->index(v) == i)
+          return "a cell is marked with the wrong " + name("subfacet", t);
     }
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j) {

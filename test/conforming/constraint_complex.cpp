@@ -130,7 +130,8 @@ TEST_CASE("Flips keep the neighbours of subfacets in order", "[conforming]") {
     const pgdr::Index facet = complex.subfacet(t).facet;
     const auto& v = complex.subfacet(t).vertices;
     const auto apex = v[i], from = v[(i + 1) % 3], to = v[(i + 2) % 3];
-    const auto opposite = complex.subfacet(u).vertices[static_cast<std::size_t>(complex.edge_with_neighbor(u, t))];
+    const auto opposite =
+        complex.subfacet(u).vertices[static_cast<std::size_t>(complex.edge_with_neighbor(u, t))];
     if (complex.orientation(facet, apex->point(), from->point(), opposite->point()) != CGAL::POSITIVE ||
         complex.orientation(facet, opposite->point(), to->point(), apex->point()) != CGAL::POSITIVE)
       continue;
@@ -181,8 +182,10 @@ TEST_CASE("Distances to small angles", "[conforming]") {
   Plc prism;
   const double t = std::tan(std::acos(-1.0) / 6);
   for (const double z : {0.0, 4.0})
-    for (const auto& [x, y] : {std::array<double, 2>{0, 0}, {3, 0}, {3, 3 * t}}) prism.vertices.emplace_back(x, y, z);
-  for (const std::vector<pgdr::Index>& p : {std::vector<pgdr::Index>{0, 1, 2}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}})
+    for (const auto& [x, y] : {std::array<double, 2>{0, 0}, {3, 0}, {3, 3 * t}})
+      prism.vertices.emplace_back(x, y, z);
+  for (const std::vector<pgdr::Index>& p :
+       {std::vector<pgdr::Index>{0, 1, 2}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}})
     prism.facets.push_back({{p}, {}, 0});
   const auto domain = pgdr::make_domain_3(prism);
   const pgdr::Acute_neighborhood_3 acute(domain);

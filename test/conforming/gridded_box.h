@@ -16,7 +16,8 @@ inline Plc gridded_box(Index n) {
     for (Index i = 0; i <= n; ++i) plc.vertices.emplace_back(i, j, 0.5 * n);
   const auto at = [n](Index i, Index j) { return j * (n + 1) + i; };
   const Index bottom = static_cast<Index>(plc.vertices.size());
-  for (const auto& [x, y] : {std::pair<Index, Index>{0, 0}, {n, 0}, {n, n}, {0, n}}) plc.vertices.emplace_back(x, y, 0);
+  for (const auto& [x, y] : {std::pair<Index, Index>{0, 0}, {n, 0}, {n, n}, {0, n}})
+    plc.vertices.emplace_back(x, y, 0);
   for (Index j = 0; j < n; ++j)
     for (Index i = 0; i < n; ++i)
       plc.facets.push_back({{{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}}, {}, 0});

@@ -21,7 +21,8 @@ bool equal(const Vec_3& a, const Vec_3& b) { return a.x == b.x && a.y == b.y && 
 
 }  // namespace
 
-TEST_CASE("A subsegment at one acute corner is split on a shell whose radius is a power of two", "[conforming]") {
+TEST_CASE("A subsegment at one acute corner is split on a shell whose radius is a power of two",
+          "[conforming]") {
   Random random(1);
   for (int k = 0; k < 2000; ++k) {
     const double size = std::pow(10, random.between(-6, 9));
@@ -48,7 +49,8 @@ TEST_CASE("Segments of one acute corner are split at equal distances from it", "
   for (int k = 0; k < 100; ++k) {
     Vec_3 d = random_vec(random);
     d = (random.between(1.6, 2.9) / pgdr::length(d)) * d;  // shell 1 for lengths of 1.5 to 3
-    const double radius = pgdr::length(pgdr::subsegment_split_point(corner, corner + d, true, false) - corner);
+    const double radius =
+        pgdr::length(pgdr::subsegment_split_point(corner, corner + d, true, false) - corner);
     if (k == 0) first = radius;
     CHECK(radius == Approx(first).epsilon(1e-12));
   }
@@ -75,7 +77,8 @@ TEST_CASE("The split point keeps the coordinates that both ends share", "[confor
   }
 }
 
-TEST_CASE("The circumcenter is that of the triangle and does not depend on the order of its vertices", "[conforming]") {
+TEST_CASE("The circumcenter is that of the triangle and does not depend on the order of its vertices",
+          "[conforming]") {
   Random random(4);
   for (int k = 0; k < 1000; ++k) {
     CAPTURE(k);

@@ -102,7 +102,8 @@ template <class Triangulation>
 std::vector<std::array<Point, 4>> cells(const Triangulation& tr) {
   std::vector<std::array<Point, 4>> result;
   for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) {
-    result.push_back({c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point()});
+    result.push_back(
+        {c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point()});
     std::sort(result.back().begin(), result.back().end());
   }
   std::sort(result.begin(), result.end());
@@ -173,7 +174,8 @@ TEST_CASE("An abandoned cavity leaves the triangulation as it was", "[mesh]") {
     REQUIRE(cavity.find(p, tr.locate(p)));
     // The marks are there while the cavity is.
     std::size_t marked = 0;
-    for (auto c = tr.all_cells_begin(); c != tr.all_cells_end(); ++c) marked += pgdr::Cavity_3<Tr>::contains(c);
+    for (auto c = tr.all_cells_begin(); c != tr.all_cells_end(); ++c)
+      marked += pgdr::Cavity_3<Tr>::contains(c);
     CHECK(marked == cavity.cells().size());
     for (const auto& f : cavity.boundary()) {
       CHECK(pgdr::Cavity_3<Tr>::contains(f.first));

@@ -21,7 +21,8 @@ class Random_boxes {
     const std::uint32_t blocks = 1 + random_.below(3);
     std::array<double, 3> upper{random_.between(1, 3), random_.between(1, 3), 0};
     for (std::uint32_t k = 0; k <= blocks; ++k) {
-      for (const auto& [x, y] : {std::array<double, 2>{0, 0}, {upper[0], 0}, {upper[0], upper[1]}, {0, upper[1]}})
+      for (const auto& [x, y] :
+           {std::array<double, 2>{0, 0}, {upper[0], 0}, {upper[0], upper[1]}, {0, upper[1]}})
         plc_.vertices.emplace_back(x, y, upper[2]);
       const Index top = 4 * k;
       plc_.facets.push_back({{{top, top + 1, top + 2, top + 3}}, {}, marker()});

@@ -12,8 +12,12 @@ TEST_CASE("A cube is refined with exact constructions", "[refinement]") {
   using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
   pgdr::Piecewise_linear_complex_3<Kernel> plc;
   for (int i = 0; i < 8; ++i) plc.vertices.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  for (const std::vector<pgdr::Index>& p : {std::vector<pgdr::Index>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                            {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+  for (const std::vector<pgdr::Index>& p : {std::vector<pgdr::Index>{0, 2, 3, 1},
+                                            {4, 5, 7, 6},
+                                            {0, 1, 5, 4},
+                                            {2, 6, 7, 3},
+                                            {0, 4, 6, 2},
+                                            {1, 3, 7, 5}})
     plc.facets.push_back({{p}, {}, 7});
   pgdr::Parameters parameters;
   parameters.verify = true;

@@ -25,8 +25,9 @@ struct Shape {
   const char* file;
   double size;
 };
-const Shape shapes[] = {{"cube.poly", 0.15},   {"l_block.poly", 0.2},         {"cavity.poly", 0.4},
-                        {"two_regions.poly", 0.2}, {"plate_with_hole.poly", 0.3}, {"winged_body_in_box.poly", 4}};
+const Shape shapes[] = {{"cube.poly", 0.15},           {"l_block.poly", 0.2},
+                        {"cavity.poly", 0.4},          {"two_regions.poly", 0.2},
+                        {"plate_with_hole.poly", 0.3}, {"winged_body_in_box.poly", 4}};
 
 Plc read(const char* file) { return pgdr::read_plc(data_file(file)); }
 
@@ -44,10 +45,10 @@ double largest_volume(const pgdr::Indexed_mesh_3& mesh, std::int32_t region) {
 
 bool equal(const pgdr::Indexed_mesh_3& a, const pgdr::Indexed_mesh_3& b) {
   return a.points == b.points && a.point_references == b.point_references &&
-         a.point_dimensions == b.point_dimensions && a.edges == b.edges && a.edge_references == b.edge_references &&
-         a.triangles == b.triangles && a.triangle_references == b.triangle_references &&
-         a.tetrahedra == b.tetrahedra && a.tetrahedron_references == b.tetrahedron_references &&
-         a.exempt == b.exempt;
+         a.point_dimensions == b.point_dimensions && a.edges == b.edges &&
+         a.edge_references == b.edge_references && a.triangles == b.triangles &&
+         a.triangle_references == b.triangle_references && a.tetrahedra == b.tetrahedra &&
+         a.tetrahedron_references == b.tetrahedron_references && a.exempt == b.exempt;
 }
 
 /// What the checker minds about a mesh that a limit stopped. Where pieces of the input are not in the mesh yet,
@@ -80,12 +81,14 @@ TEST_CASE("Every shape is refined to the promised quality", "[refinement]") {
         if (c->subdomain() == 0) continue;
         ++cells;
         const auto& p = c->vertex(0)->point();
-        const auto center = CGAL::circumcenter(p, c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
+        const auto center =
+            CGAL::circumcenter(p, c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
         const double r = std::sqrt(CGAL::squared_distance(center, p));
         double shortest = std::numeric_limits<double>::infinity();
         for (int i = 0; i < 4; ++i)
           for (int j = i + 1; j < 4; ++j)
-            shortest = std::min(shortest, std::sqrt(CGAL::squared_distance(c->vertex(i)->point(), c->vertex(j)->point())));
+            shortest = std::min(
+                shortest, std::sqrt(CGAL::squared_distance(c->vertex(i)->point(), c->vertex(j)->point())));
         over += r > bound * shortest * (1 + 1e-9);
         too_large += r > size * (1 + 1e-9);
       }
@@ -111,7 +114,8 @@ TEST_CASE("Every shape is refined to the promised quality", "[refinement]") {
         phases.push_back(phase);
         CHECK(seconds >= 0);
       }
-      CHECK(phases == std::vector<std::string>{"triangulation", "conforming", "labelling", "refinement", "verification"});
+      CHECK(phases == std::vector<std::string>{"triangulation", "conforming", "labelling", "refinement",
+                                               "verification"});
     }
 }
 
@@ -121,19 +125,22 @@ TEST_CASE("Nothing is bounded unless asked for", "[refinement]") {
   CHECK(coarse.edges.size() == 12);
   CHECK(coarse.triangles.size() == 12);
   // A finer size gives more, and each bound its own.
-  const auto fine = pgdr::indexed_mesh_3(refined(box(), 0.2)), finer = pgdr::indexed_mesh_3(refined(box(), 0.1));
+  const auto fine = pgdr::indexed_mesh_3(refined(box(), 0.2)),
+             finer = pgdr::indexed_mesh_3(refined(box(), 0.1));
   CHECK(fine.tetrahedra.size() > 2 * coarse.tetrahedra.size());
   CHECK(finer.tetrahedra.size() > 4 * fine.tetrahedra.size());
 }
 
 TEST_CASE("A sizing field with boxes is obeyed where it is fine", "[refinement]") {
-  const pgdr::Command_line_sizing sizing(pgdr::Uniform_sizing_field(0.5), {{{0, 0, 0}, {0.5, 0.5, 0.5}, 0.06}});
+  const pgdr::Command_line_sizing sizing(pgdr::Uniform_sizing_field(0.5),
+                                         {{{0, 0, 0}, {0.5, 0.5, 0.5}, 0.06}});
   const auto mesh = pgdr::indexed_mesh_3(pgdr::refine_mesh_3(box(), sizing));
   CHECK(failures(pgdr::check_mesh(mesh)) == "");
   std::size_t inside = 0, outside_and_large = 0;
   for (const auto& t : mesh.tetrahedra) {
     std::array<CGAL::Epick::Point_3, 4> p;
-    for (std::size_t i = 0; i < 4; ++i) p[i] = {mesh.points[t[i]][0], mesh.points[t[i]][1], mesh.points[t[i]][2]};
+    for (std::size_t i = 0; i < 4; ++i)
+      p[i] = {mesh.points[t[i]][0], mesh.points[t[i]][1], mesh.points[t[i]][2]};
     const auto c = CGAL::circumcenter(p[0], p[1], p[2], p[3]);
     const double r = std::sqrt(CGAL::squared_distance(c, p[0]));
     CHECK(r <= sizing(c) * (1 + 1e-9));

@@ -108,7 +108,8 @@ TEST_CASE("A leaf region is half open", "[refinement]") {
   region.upper = {1, 2, 3};
   CHECK(region.contains({0, 0, 0}));
   CHECK(region.contains({0.5, 1.5, 2.5}));
-  for (const pgdr::Vec_3& p : {pgdr::Vec_3{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-0.1, 0, 0}, {0, -0.1, 0}, {0, 0, -0.1}})
+  for (const pgdr::Vec_3& p :
+       {pgdr::Vec_3{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-0.1, 0, 0}, {0, -0.1, 0}, {0, 0, -0.1}})
     CHECK(!region.contains(p));
   // Every point is in exactly one of the leaves.
   const auto leaves = slabs(7);
@@ -122,7 +123,8 @@ TEST_CASE("A leaf region is half open", "[refinement]") {
 }
 
 TEST_CASE("A toy refiner gives the same points leaf by leaf as at once", "[refinement]") {
-  for (double (*bound)(double) : {+[](double) { return 0.01; }, +[](double x) { return 0.001 + 0.1 * std::abs(x - 0.3); }}) {
+  for (double (*bound)(double) :
+       {+[](double) { return 0.01; }, +[](double x) { return 0.001 + 0.1 * std::abs(x - 0.3); }}) {
     Interval_refiner once(bound);
     Interval_refiner::Worklist worklist;
     once.classify({0, 1}, worklist);
@@ -192,7 +194,8 @@ TEST_CASE("The Delaunay refiner leaves what is outside of its leaf alone", "[ref
   std::size_t poor = 0;
   for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) {
     const auto& p = c->vertex(0)->point();
-    const auto center = CGAL::circumcenter(p, c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
+    const auto center =
+        CGAL::circumcenter(p, c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
     if (CGAL::squared_distance(center, p) <= 0.05 * 0.05 * (1 + 1e-9)) continue;
     ++poor;
     CHECK(center.x() >= 0.6 - 1e-9);

@@ -56,8 +56,8 @@ TEST_CASE("A bunny is meshed", "[models]") {
 }
 
 TEST_CASE("Regions and markers come through", "[models]") {
-  for (const auto& [name, exempt] :
-       {std::pair<const char*, std::size_t>{"a01_tetgen_example.poly", 0}, {"a21_cgal_patches_3regions.poly", 1080}}) {
+  for (const auto& [name, exempt] : {std::pair<const char*, std::size_t>{"a01_tetgen_example.poly", 0},
+                                     {"a21_cgal_patches_3regions.poly", 1080}}) {
     const auto mesh = checked(name, exempt);
     if (!mesh) PGDR_SKIP("the real models are not here");
     const Plc plc = pgdr::read_plc(*input_model(name));

@@ -135,16 +135,17 @@ class Feature_refiner_3 {
 
     const Located at = locate(slot, p);
     // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
-    const bool may_redirect = reason != Split_reason::flat;
-    if (at.subsegment != Complex::none && !may_redirect) return Split_outcome::refused;
-    if (at.subsegment != Complex::none) return split_subsegment(at.subsegment, reason_for_redirect(reason), guard);
+    const bool yields = reason != Split_reason::flat;
+    const auto give_way = [&](std::uint32_t s) {
+      return yields ? split_subsegment(s, reason_for_redirect(reason), guard) : Split_outcome::refused;
+    };
+    if (at.subsegment != Complex::none) return give_way(at.subsegment);
     if (!find_from_subfacet(at.subfacet, slot, p)) return Split_outcome::refused;
     features_.gather(complex_, cavity_);
     for (const auto& f : features_.subsegments())
-      if (f.deleted || is_encroached(complex_.subsegment(f.slot), p)) {
+      if (f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p))) {
         cavity_.abandon();
-        if (!may_redirect) return Split_outcome::refused;
-        return split_subsegment(f.slot, reason_for_redirect(reason), guard);
+        return give_way(f.slot);
       }
     if (is_too_close(m, reason, guard, radius)) return abandon();
     features_.mark_deleted(complex_, true);
