@@ -81,8 +81,6 @@ class Feature_refiner_3 {
   bool is_idle() const { return subsegment_queue_.empty() && subfacet_queue_.empty(); }
   std::size_t pending() const { return subsegment_queue_.size() + subfacet_queue_.size(); }
   std::size_t inserted() const { return inserted_; }
-  /// Missing pieces that could not be split above the minimum edge length.
-  std::size_t unrecovered() const { return unrecovered_; }
 
   /// Handles one request, subsegments before subfacets. \pre not idle.
   void step() { handle(false); }
@@ -208,11 +206,9 @@ class Feature_refiner_3 {
     if (r.reason == Split_reason::missing && present) return;
     const Split_outcome outcome =
         segment ? split_subsegment(slot, r.reason, {r.floor}) : split_subfacet(slot, r.reason, {r.floor});
-    if (outcome == Split_outcome::refused) {
-      unrecovered_ += r.reason == Split_reason::missing;
-    } else if (!segment && complex_.is_live_subfacet(r.piece)) {
-      subfacet_queue_.push_back(r);  // a subsegment was split instead
-    }
+    // Still there: a subsegment was split instead.
+    if (outcome == Split_outcome::inserted && !segment && complex_.is_live_subfacet(r.piece))
+      subfacet_queue_.push_back(r);
   }
 
   bool is_acute(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
@@ -374,7 +370,6 @@ class Feature_refiner_3 {
   std::vector<Cell_id> unlabelled_cells_;
   double squared_min_edge_;
   std::size_t inserted_ = 0;
-  std::size_t unrecovered_ = 0;
   bool keep_fresh_ = false;
   bool torn_ = false;
 };

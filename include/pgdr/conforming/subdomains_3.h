@@ -35,12 +35,12 @@ class Subdomain_labeler_3 {
     flood_all();
     measure_depths();
     decide(ignore_region_sizes);
-    for (auto c = tr_.all_cells_begin(); c != tr_.all_cells_end(); ++c)
+    for (auto c = tr_.all_cells_begin(); c != tr_.all_cells_end(); ++c) {
       c->set_subdomain(volumes_[static_cast<std::size_t>(c->subdomain())].label);
-    for (auto c = tr_.all_cells_begin(); c != tr_.all_cells_end(); ++c)
       for (int i = 0; i < 4; ++i)
         if (c->subfacet(i) != Complex::none)
           complex_.note_side(complex_.subfacet(c->subfacet(i)).facet, complex_.is_in_front(c, i), c->subdomain());
+    }
     return table_;
   }
 

@@ -58,19 +58,16 @@ class Delaunay_leaf_refiner_3 {
 
   Drain_result drain(const Leaf_region& region, Worklist& worklist) {
     Drain_result result;
+    const std::size_t on_features = features_.inserted();
     while (true) {
       if (should_stop_()) {
         result.stopped = true;
-        const std::size_t before = features_.inserted();
         features_.close(10000);
-        result.inserted += features_.inserted() - before;
         mend_subdomains();
         break;
       }
       if (!features_.is_idle()) {
-        const std::size_t before = features_.inserted();
         features_.step();
-        result.inserted += features_.inserted() - before;
         continue;
       }
       // Only now, with every facet whole, is it known again on which side of it a new tetrahedron is.
@@ -85,6 +82,7 @@ class Delaunay_leaf_refiner_3 {
       worklist.poor.pop_front();
       if (id.is_live() && id.cell->subdomain() != 0) refine(id, region, worklist, result);
     }
+    result.inserted += features_.inserted() - on_features;
     return result;
   }
 
@@ -123,7 +121,6 @@ class Delaunay_leaf_refiner_3 {
     if (collect_obstacles(p)) {
       cavity.abandon();
       if (split_obstacle(id.cell, ball, corners)) {
-        ++result.inserted;
         if (id.is_live()) worklist.poor.push_back(id);
       } else {
         ++result.refused;
