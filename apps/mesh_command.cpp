@@ -27,6 +27,7 @@
 #include "messages.h"
 #include "read_domain.h"
 #include "stats_file.h"
+#include "trace_file.h"
 
 namespace pgdr::app {
 
@@ -43,6 +44,9 @@ struct Mesh_arguments {
   std::string max_vertices;
   std::string threads;
   std::string stats;
+  std::string trace;
+  std::string octree_depth;
+  bool check_zones = false;
   bool ignore_region_sizes = false;
   bool verify = false;
   bool quiet = false;
@@ -82,11 +86,22 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
   parser
       .add_option("--max-vertices", arguments.max_vertices, "Stop at this many vertices (default: no limit)")
       ->type_name("N");
-  parser.add_option("--threads", arguments.threads, "Number of threads; this version uses one")
+  parser.add_option("--threads", arguments.threads, "Number of threads (default: all); the mesh is the same for every number")
       ->type_name("N");
+  parser
+      .add_option("--octree-depth", arguments.octree_depth,
+                  "For comparison: refine on the fixed octree of this depth, 1 for plain sequential refinement "
+                  "(default: the octree grows with the mesh)")
+      ->type_name("D");
+  parser.add_flag("--check-zones", arguments.check_zones,
+                  "Check that parallel tasks keep their distance, and stop the program if not");
   parser.add_flag("--verify", arguments.verify, "Run CGAL's is_valid() on the triangulation when it is done");
   parser.add_flag("--quiet", arguments.quiet, "No progress line and no summary");
   parser.add_option("--stats", arguments.stats, "Write the summary as JSON")->type_name("FILE");
+  parser
+      .add_option("--trace", arguments.trace,
+                  "Write a timeline of all leaf tasks in the Chrome trace-event format, for chrome://tracing or Perfetto")
+      ->type_name("FILE");
 }
 
 Command_line_sizing sizing_field(const Mesh_arguments& arguments) {
@@ -107,7 +122,11 @@ Parameters parameters(const Mesh_arguments& arguments) {
   if (!arguments.min_edge_length.empty())
     p.min_edge_length = parse_positive("--min-edge-length", arguments.min_edge_length);
   if (!arguments.max_vertices.empty()) p.max_vertices = parse_count("--max-vertices", arguments.max_vertices);
-  if (!arguments.threads.empty()) parse_count("--threads", arguments.threads);
+  if (!arguments.threads.empty()) p.threads = static_cast<unsigned>(parse_count("--threads", arguments.threads));
+  if (!arguments.octree_depth.empty())
+    p.octree_depth = static_cast<int>(std::min<std::size_t>(parse_count("--octree-depth", arguments.octree_depth), 12));
+  p.check_zones = p.check_zones || arguments.check_zones;
+  p.record_tasks = !arguments.trace.empty();
   p.verify = arguments.verify;
   return p;
 }
@@ -117,6 +136,7 @@ void check_outputs(const Mesh_arguments& arguments) {
   for (const std::string& output : arguments.outputs) require_extension("-o", output, {".vtu", ".mesh"});
   std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
   if (!arguments.stats.empty()) files.emplace_back(arguments.stats);
+  if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
   require_distinct_files({arguments.input}, files);
   for (const auto& file : files) check_writable(file);
 }
@@ -153,6 +173,8 @@ int run_mesh(const Mesh_arguments& arguments) {
     run.stop_message = statistics.stop_message;
     run.steiner_points = statistics.steiner_points;
     run.unrecovered = statistics.unrecovered;
+    run.schedule = statistics.schedule;
+    run.threads = statistics.schedule.threads;
     timer.end_phases(statistics.seconds);
     progress.show("numbering");
     mesh = indexed_mesh_3(std::move(refined));
@@ -173,6 +195,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   run.total_seconds = timer.total_seconds();
   run.peak_memory_bytes = peak_memory_bytes();
   if (!arguments.stats.empty()) write_stats(run, arguments.stats);
+  if (!arguments.trace.empty()) write_trace(run.schedule, arguments.trace);
   if (!arguments.quiet) print_summary(std::cout, run);
   if (run.stop == Stop_reason::finished) return exit_done;
   print_message(run.stop_message.empty() ? std::string("stopped: ") + stop_reason_name(run.stop)

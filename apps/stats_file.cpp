@@ -10,8 +10,33 @@
 
 namespace pgdr::app {
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json schedule_json(const Schedule_statistics& schedule) {
+  Json epochs = Json::array();
+  for (const Epoch_statistics& e : schedule.epochs)
+    epochs.push_back({{"leaves", e.leaves},
+                      {"waves", e.waves},
+                      {"tasks", e.tasks},
+                      {"most_ready", e.most_ready},
+                      {"active", e.active},
+                      {"deferred", e.deferred},
+                      {"inserted", e.inserted},
+                      {"inserted_alone", e.inserted_alone},
+                      {"seconds", e.seconds},
+                      {"serial_share", e.seconds > 0 ? e.serial_seconds / e.seconds : 0}});
+  return {{"seconds", schedule.seconds},
+          {"serial_share", schedule.seconds > 0 ? schedule.serial_seconds / schedule.seconds : 0},
+          {"far_parcels", schedule.far_parcels},
+          {"settled", schedule.settled},
+          {"epochs", epochs}};
+}
+
+}  // namespace
+
 std::string stats_json(const Run_summary& run) {
-  using Json = nlohmann::ordered_json;
   const Mesh_quality& quality = run.quality;
   // In hexadecimal: a JSON number may lose bits of it.
   char checksum[17];
@@ -46,7 +71,8 @@ std::string stats_json(const Run_summary& run) {
                      {"mesh_checksum", checksum},
                      {"stop", stop_reason_name(run.stop)},
                      {"stop_message", run.stop_message},
-                     {"regions", regions}};
+                     {"regions", regions},
+                     {"schedule", schedule_json(run.schedule)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

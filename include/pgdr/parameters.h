@@ -39,6 +39,25 @@ struct Parameters {
   /// Where not even the recovery of the input fits, the mesh lacks pieces of it, and the statistics say so.
   std::size_t max_vertices = 0;
 
+  /// Threads that refine; 0: as many as the calling thread's TBB arena has. The mesh is the same for every number.
+  unsigned threads = 0;
+
+  /// 0: the octree grows with the mesh. D > 0: the fixed octree of depth D (8^(D-1) leaves) of the paper by Chernikov
+  /// and Chrisochoides, refined by one thread until its buffer condition (18) and the zone condition hold. For
+  /// comparison; 1 is plain sequential refinement.
+  int octree_depth = 0;
+
+  /// Keep a record of every leaf task, for a timeline or a replay: about 64 bytes each.
+  bool record_tasks = false;
+
+  /// Check that every task stays within the zone of its leaf and that no two running tasks meet; throws
+  /// `std::logic_error` otherwise. Costs about a tenth of the time.
+#ifdef PGDR_CHECKED
+  bool check_zones = true;
+#else
+  bool check_zones = false;
+#endif
+
   /// Run CGAL's `is_valid()` on the refined triangulation, Delaunay property included.
   bool verify = false;
 

@@ -18,6 +18,8 @@
 #include <pgdr/refinement/indexed_mesh_of_3.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/refined_mesh_3.h>
+#include <pgdr/schedule/epoch_scheduler.h>
+#include <pgdr/schedule/in_arena.h>
 #include <pgdr/sizing/box_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
@@ -32,21 +34,22 @@ class Mesher_3 {
   using Mesh = Refined_mesh_3<K>;
   using Tr = typename Mesh::Triangulation;
   using Criteria = Quality_criteria_3<K, Sizing>;
-  using Refiner = Delaunay_leaf_refiner_3<Tr, Criteria>;
+  using Engine = Delaunay_leaf_refiner_3<Tr, Criteria>;
   using Clock = std::chrono::steady_clock;
 
  public:
   Mesher_3(Domain_3<K> domain, const Parameters& parameters)
       : parameters_(parameters), mesh_(std::move(domain)), acute_(mesh_.domain()),
-        features_(mesh_.triangulation(), mesh_.complex(), acute_,
-                  parameters.min_edge_length > 0 ? parameters.min_edge_length : 1e-9 * mesh_.domain().diagonal) {
+        min_edge_length_(parameters.min_edge_length > 0 ? parameters.min_edge_length
+                                                        : 1e-9 * mesh_.domain().diagonal),
+        features_(mesh_.triangulation(), mesh_.complex(), acute_, min_edge_length_) {
     mesh_.set_radius_edge_ratio(parameters.radius_edge_ratio);
   }
 
   Mesh run(const Sizing& sizing) {
     start_ = Clock::now();
-    phase_ = "conforming";
-    build_complex(mesh_.complex(), insert_domain_vertices(mesh_.triangulation(), mesh_.domain()));
+    build_complex(mesh_.complex(), features_.pool(), insert_domain_vertices(mesh_.triangulation(), mesh_.domain()));
+    const auto on_hull = corner_of_hull(mesh_.triangulation());
     lap("triangulation");
     start_segment_recovery(mesh_.triangulation(), features_);
     while (features_.has_subsegments() && !should_stop()) features_.step();
@@ -54,10 +57,12 @@ class Mesher_3 {
     while (!features_.is_idle() && !should_stop()) features_.step();
     features_.note_mended();
     lap("conforming");
+    mesh_.triangulation().restore_infinite_cell(on_hull);
     mesh_.subdomains() =
         Subdomain_labeler_3<Tr>(mesh_.triangulation(), mesh_.complex()).label(parameters_.ignore_region_sizes);
     lap("labelling");
     if (count_missing() == 0 && reason_ == Stop_reason::finished) refine(sizing);
+    mesh_.triangulation().restore_infinite_cell(on_hull);
     lap("refinement");
     if (parameters_.verify && !mesh_.triangulation().is_valid())
       throw std::logic_error("the refined triangulation is not a valid Delaunay triangulation");
@@ -68,25 +73,23 @@ class Mesher_3 {
 
  private:
   void refine(const Sizing& sizing) {
-    phase_ = "refinement";
     const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains());
-    Refiner refiner(mesh_.triangulation(), features_, criteria, [this] { return should_stop(); });
-    typename Refiner::Worklist worklist;
-    pending_ = [this, &worklist] { return worklist.size() + features_.pending(); };
-    features_.keep_fresh_cells(true);
-    Tr& tr = mesh_.triangulation();
-    for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) refiner.classify(c, worklist);
-    refiner.drain(Leaf_region{}, worklist);
-    pending_ = [] { return std::size_t{0}; };
+    Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_);
+    in_arena(parameters_.threads, [&] {
+      Epoch_scheduler<Engine> scheduler(engine, parameters_, mesh_.triangulation().number_of_vertices());
+      if (!scheduler.run())
+        reason_ = parameters_.cancel && parameters_.cancel->load() ? Stop_reason::cancelled : Stop_reason::vertex_budget;
+      mesh_.statistics().schedule = std::move(scheduler.statistics());
+    });
   }
 
-  /// Asked before every insertion.
+  /// Asked before every insertion while conforming.
   bool should_stop() {
     if (reason_ != Stop_reason::finished) return true;
     const std::size_t vertices = mesh_.triangulation().number_of_vertices();
     if (parameters_.max_vertices > 0 && vertices >= parameters_.max_vertices) reason_ = Stop_reason::vertex_budget;
     if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = Stop_reason::cancelled;
-    if (parameters_.progress && ++calls_ % 4096 == 0) parameters_.progress({phase_, vertices, pending_()});
+    if (parameters_.progress && ++calls_ % 4096 == 0) parameters_.progress({"conforming", vertices, features_.pending()});
     return reason_ != Stop_reason::finished;
   }
 
@@ -121,20 +124,19 @@ class Mesher_3 {
     const auto& complex = mesh_.complex();
     std::size_t n = 0;
     for (std::uint32_t i = 0; i < complex.subsegment_slots(); ++i)
-      n += complex.subsegment(i).alive && !complex.subsegment(i).present;
+      n += complex.subsegment(i).alive() && !complex.subsegment(i).present;
     for (std::uint32_t i = 0; i < complex.subfacet_slots(); ++i)
-      n += complex.subfacet(i).alive && !complex.subfacet(i).present;
+      n += complex.subfacet(i).alive() && !complex.subfacet(i).present;
     return n;
   }
 
   const Parameters& parameters_;
   Mesh mesh_;
   Acute_neighborhood_3 acute_;
+  double min_edge_length_;
   Feature_refiner_3<Tr> features_;
   Stop_reason reason_ = Stop_reason::finished;
-  const char* phase_ = "";
   std::size_t calls_ = 0;
-  std::function<std::size_t()> pending_ = [] { return std::size_t{0}; };
   Clock::time_point start_;
 };
 

@@ -21,7 +21,8 @@ class Cocircular_polygon_3 {
   using Complex = Constraint_complex_3<Tr>;
   using Vertex_handle = typename Tr::Vertex_handle;
 
-  Cocircular_polygon_3(Tr& tr, Complex& complex) : tr_(tr), complex_(complex) {}
+  Cocircular_polygon_3(Tr& tr, Complex& complex, typename Complex::Pool& pool)
+      : tr_(tr), complex_(complex), pool_(pool) {}
 
   /// Replaces the subfacets around a missing one by present ones. False if 3D has no triangulation of the polygon.
   bool adopt(std::uint32_t slot) {
@@ -51,7 +52,7 @@ class Cocircular_polygon_3 {
     edges_.clear();
     complex_.subfacet(slot).scratch = 1;
     for (std::size_t k = 0; k < members_.size(); ++k) {
-      const auto t = complex_.subfacet(members_[k]);
+      const auto& t = complex_.subfacet(members_[k]);
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t n = t.neighbors[i];
         if (!(n & Complex::subsegment_bit)) {
@@ -113,14 +114,14 @@ class Cocircular_polygon_3 {
 
   void replace() {
     unmark_survivors(tr_, complex_, members_);
-    for (const std::uint32_t t : members_) complex_.remove_subfacet(t);
+    for (const std::uint32_t t : members_) complex_.remove_subfacet(pool_, t);
     build(0, corners_.size() - 1, edges_.back().outside);
   }
 
   /// Makes the triangles of corners i..j and returns the one on the diagonal (i, j), whose other side is `across`.
   std::uint32_t build(std::size_t i, std::size_t j, std::uint32_t across) {
     const std::size_t k = static_cast<std::size_t>(middle_[i * corners_.size() + j]);
-    const std::uint32_t t = complex_.add_subfacet(corners_[i], corners_[k], corners_[j], facet_);
+    const std::uint32_t t = complex_.add_subfacet(pool_, corners_[i], corners_[k], corners_[j], facet_);
     mark_subfacet(tr_, complex_, t);
     join(t, 1, across, corners_[i], corners_[j]);
     const std::uint32_t left = k == i + 1 ? edges_[i].outside : build(i, k, t);
@@ -149,6 +150,7 @@ class Cocircular_polygon_3 {
 
   Tr& tr_;
   Complex& complex_;
+  typename Complex::Pool& pool_;
   Index facet_ = 0;
   std::vector<std::uint32_t> members_;
   std::vector<Edge> edges_;

@@ -54,7 +54,7 @@ void start_segment_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
   auto& complex = refiner.complex();
   const auto slots = static_cast<std::uint32_t>(complex.subsegment_slots());
   for (std::uint32_t s = 0; s < slots; ++s)
-    if (!mark_subsegment(tr, complex, s)) refiner.note_missing_subsegment(s);
+    if (complex.subsegment(s).alive() && !mark_subsegment(tr, complex, s)) refiner.note_missing_subsegment(s);
   for (std::uint32_t s = 0; s < slots; ++s)
     if (complex.subsegment(s).present) internal::queue_if_encroached_subsegment(tr, refiner, s);
 }
@@ -65,13 +65,13 @@ void start_facet_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
   auto& complex = refiner.complex();
   const auto slots = [&] { return static_cast<std::uint32_t>(complex.subfacet_slots()); };
   for (std::uint32_t t = 0; t < slots(); ++t)
-    if (complex.subfacet(t).alive && !complex.subfacet(t).present) mark_subfacet(tr, complex, t);
-  Cocircular_polygon_3<Tr> polygon(tr, complex);
+    if (complex.subfacet(t).alive() && !complex.subfacet(t).present) mark_subfacet(tr, complex, t);
+  Cocircular_polygon_3<Tr> polygon(tr, complex, refiner.pool());
   for (std::uint32_t t = 0; t < slots(); ++t)
-    if (complex.subfacet(t).alive && !complex.subfacet(t).present && !polygon.adopt(t))
+    if (complex.subfacet(t).alive() && !complex.subfacet(t).present && !polygon.adopt(t))
       refiner.note_missing_subfacet(t);
   for (std::uint32_t t = 0; t < slots(); ++t)
-    if (complex.subfacet(t).alive && complex.subfacet(t).present)
+    if (complex.subfacet(t).alive() && complex.subfacet(t).present)
       internal::queue_if_encroached_subfacet(tr, refiner, t);
 }
 

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
 
 #include <pgdr/conforming/facet_plane_3.h>
+#include <pgdr/conforming/slot_array.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
 
@@ -21,11 +23,26 @@ struct Piece_id {
   std::uint32_t version = 0;
 };
 
+/// Counts the uses of a slot, odd while it is in use. Atomic, since a distant task may reuse the slot while somebody
+/// else looks whether the piece is still there.
+class Piece_version {
+ public:
+  std::uint32_t get() const { return count_.load(std::memory_order_relaxed); }
+  bool is_odd() const { return get() & 1u; }
+  void advance(std::uint32_t by = 1) { count_.store(get() + by, std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint32_t> count_{0};
+};
+
 /// The segments and facets of the domain as the mesh has to show them: subsegments and subfacets, each *present*
 /// in the 3D triangulation (and then marked on its cells) or still missing.
 ///
 /// Every facet is a 2D triangulation of its own, one sheet of subfacets joined across common edges, that exists
 /// whether or not its triangles exist in 3D. A constraint is recovered by splitting what is missing.
+///
+/// Several threads may change it at once, each with a `Pool` of its own, as long as no two of them are at work on
+/// pieces with a vertex in common; only the versions of pieces may be asked for from anywhere.
 template <class Tr>
 class Constraint_complex_3 {
  public:
@@ -41,12 +58,13 @@ class Constraint_complex_3 {
   struct Subsegment {
     std::array<Vertex_handle, 2> vertices;
     Index segment = 0;
-    std::uint32_t version = 0;
-    bool alive = false;
+    Piece_version version;
     bool present = false;
     std::uint8_t scratch = 0;
     /// One entry for every subfacet with this edge, in the order in which they came.
     boost::container::small_vector<std::uint32_t, 2> subfacets;
+
+    bool alive() const { return version.is_odd(); }
   };
 
   struct Subfacet {
@@ -54,10 +72,17 @@ class Constraint_complex_3 {
     /// Across the edge opposite to each vertex: a subfacet of the same facet, or a subsegment with `subsegment_bit`.
     std::array<std::uint32_t, 3> neighbors{none, none, none};
     Index facet = 0;
-    std::uint32_t version = 0;
-    bool alive = false;
+    Piece_version version;
     bool present = false;
     std::uint8_t scratch = 0;
+
+    bool alive() const { return version.is_odd(); }
+  };
+
+  /// The slots that one thread may use.
+  struct Pool {
+    typename Slot_array<Subsegment>::Pool subsegments;
+    typename Slot_array<Subfacet>::Pool subfacets;
   };
 
   explicit Constraint_complex_3(const Domain& domain) : domain_(&domain) {
@@ -77,18 +102,14 @@ class Constraint_complex_3 {
   std::size_t subsegment_slots() const { return subsegments_.size(); }
   std::size_t subfacet_slots() const { return subfacets_.size(); }
 
-  Piece_id subsegment_id(std::uint32_t i) const { return {i, subsegments_[i].version}; }
-  Piece_id subfacet_id(std::uint32_t i) const { return {i, subfacets_[i].version}; }
-  bool is_live_subsegment(Piece_id p) const {
-    return subsegments_[p.slot].alive && subsegments_[p.slot].version == p.version;
-  }
-  bool is_live_subfacet(Piece_id p) const {
-    return subfacets_[p.slot].alive && subfacets_[p.slot].version == p.version;
-  }
+  Piece_id subsegment_id(std::uint32_t i) const { return {i, subsegments_[i].version.get()}; }
+  Piece_id subfacet_id(std::uint32_t i) const { return {i, subfacets_[i].version.get()}; }
+  bool is_live_subsegment(Piece_id p) const { return subsegments_[p.slot].version.get() == p.version; }
+  bool is_live_subfacet(Piece_id p) const { return subfacets_[p.slot].version.get() == p.version; }
 
   /// Makes a subsegment and links it to its ends.
-  std::uint32_t add_subsegment(Vertex_handle a, Vertex_handle b, Index segment) {
-    const std::uint32_t i = take(subsegments_, free_subsegments_);
+  std::uint32_t add_subsegment(Pool& pool, Vertex_handle a, Vertex_handle b, Index segment) {
+    const std::uint32_t i = take(subsegments_, pool.subsegments);
     Subsegment& s = subsegments_[i];
     s.vertices = {a, b};
     s.segment = segment;
@@ -101,19 +122,19 @@ class Constraint_complex_3 {
 
   /// Makes the two halves of a subsegment at v, its new inner vertex. The old one leaves its ends, but keeps its
   /// slot until `remove_subsegment`, so that the subfacets on it can still be told apart.
-  std::array<std::uint32_t, 2> halve_subsegment(std::uint32_t i, Vertex_handle v) {
+  std::array<std::uint32_t, 2> halve_subsegment(Pool& pool, std::uint32_t i, Vertex_handle v) {
     const auto ends = subsegments_[i].vertices;
     const Index segment = subsegments_[i].segment;
     for (const Vertex_handle end : ends) unlink(end, i);
-    const std::uint32_t first = add_subsegment(ends[0], v, segment);
-    return {first, add_subsegment(v, ends[1], segment)};
+    const std::uint32_t first = add_subsegment(pool, ends[0], v, segment);
+    return {first, add_subsegment(pool, v, ends[1], segment)};
   }
 
   /// Gives back the slot of a halved subsegment.
-  void remove_subsegment(std::uint32_t i) { release(subsegments_, free_subsegments_, i); }
+  void remove_subsegment(Pool& pool, std::uint32_t i) { release(subsegments_[i], pool.subsegments, i); }
 
-  std::uint32_t add_subfacet(Vertex_handle a, Vertex_handle b, Vertex_handle c, Index facet) {
-    const std::uint32_t i = take(subfacets_, free_subfacets_);
+  std::uint32_t add_subfacet(Pool& pool, Vertex_handle a, Vertex_handle b, Vertex_handle c, Index facet) {
+    const std::uint32_t i = take(subfacets_, pool.subfacets);
     Subfacet& t = subfacets_[i];
     t.vertices = {a, b, c};
     t.neighbors = {none, none, none};
@@ -123,14 +144,14 @@ class Constraint_complex_3 {
   }
 
   /// Also takes it off the lists of the subsegments on its edges.
-  void remove_subfacet(std::uint32_t i) {
+  void remove_subfacet(Pool& pool, std::uint32_t i) {
     for (const std::uint32_t n : subfacets_[i].neighbors) {
       if (n == none || !(n & subsegment_bit)) continue;
       auto& list = subsegments_[n & ~subsegment_bit].subfacets;
       const auto at = std::find(list.begin(), list.end(), i);
       if (at != list.end()) list.erase(at);
     }
-    release(subfacets_, free_subfacets_, i);
+    release(subfacets_[i], pool.subfacets, i);
   }
 
   /// Exchanges the common edge of two subfacets for the other diagonal; both keep their slots.
@@ -149,8 +170,8 @@ class Constraint_complex_3 {
     u.neighbors = {lj, first, il};
     replace_neighbor(ki, second, first);
     replace_neighbor(lj, first, second);
-    ++t.version;
-    ++u.version;
+    t.version.advance(2);
+    u.version.advance(2);
   }
 
   /// The subsegment between two vertices; `none` if there is none.
@@ -226,26 +247,18 @@ class Constraint_complex_3 {
   }
 
   template <class Slots>
-  static std::uint32_t take(Slots& slots, std::vector<std::uint32_t>& free) {
-    std::uint32_t i;
-    if (free.empty()) {
-      i = static_cast<std::uint32_t>(slots.size());
-      slots.emplace_back();
-    } else {
-      i = free.back();
-      free.pop_back();
-    }
-    slots[i].alive = true;
-    ++slots[i].version;
+  static std::uint32_t take(Slots& slots, typename Slots::Pool& pool) {
+    const std::uint32_t i = slots.take(pool);
+    slots[i].version.advance();
     slots[i].scratch = 0;
     return i;
   }
 
-  template <class Slots>
-  static void release(Slots& slots, std::vector<std::uint32_t>& free, std::uint32_t i) {
-    slots[i].alive = false;
-    slots[i].present = false;
-    free.push_back(i);
+  template <class Piece, class Slots_pool>
+  static void release(Piece& piece, Slots_pool& pool, std::uint32_t i) {
+    piece.version.advance();
+    piece.present = false;
+    pool.free.push_back(i);
   }
 
   static bool contains(const std::vector<Index>& sorted, Index i) {
@@ -274,11 +287,9 @@ class Constraint_complex_3 {
 
   const Domain* domain_;
   std::vector<Facet_plane_3> planes_;
-  std::vector<Subsegment> subsegments_;
-  std::vector<Subfacet> subfacets_;
+  Slot_array<Subsegment> subsegments_;
+  Slot_array<Subfacet> subfacets_;
   std::vector<std::array<std::int32_t, 2>> sides_;
-  std::vector<std::uint32_t> free_subsegments_;
-  std::vector<std::uint32_t> free_subfacets_;
   std::vector<boost::container::small_vector<std::uint32_t, 4>> corner_subsegments_;
 };
 

@@ -45,12 +45,12 @@ class Facet_star_3 {
 
   /// Replaces the removed subfacets by the star of v. `halves` are the two new subsegments when one was split:
   /// (source, v) and (v, target). Appends the new subfacets, none of them marked present.
-  void apply(Complex& complex, Vertex_handle v, const std::array<std::uint32_t, 2>& halves,
-             std::vector<std::uint32_t>& made) const {
-    for (const std::uint32_t t : removed_) complex.remove_subfacet(t);
+  void apply(Complex& complex, typename Complex::Pool& pool, Vertex_handle v,
+             const std::array<std::uint32_t, 2>& halves, std::vector<std::uint32_t>& made) const {
+    for (const std::uint32_t t : removed_) complex.remove_subfacet(pool, t);
     const std::size_t first = made.size();
     for (const Edge& e : edges_) {
-      const std::uint32_t t = complex.add_subfacet(e.source, e.target, v, facet_);
+      const std::uint32_t t = complex.add_subfacet(pool, e.source, e.target, v, facet_);
       made.push_back(t);
       complex.subfacet(t).neighbors[2] = e.outside;
       if (e.outside & Complex::subsegment_bit)
@@ -78,7 +78,7 @@ class Facet_star_3 {
     edges_.clear();
     complex.subfacet(seed).scratch |= region_bit;
     for (std::size_t k = 0; k < removed_.size(); ++k) {
-      const auto t = complex.subfacet(removed_[k]);
+      const auto& t = complex.subfacet(removed_[k]);
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t n = t.neighbors[i];
         if (n == (split_ | Complex::subsegment_bit) && split_ != Complex::none) continue;

@@ -2,8 +2,10 @@
 #ifndef PGDR_CONFORMING_FEATURE_REFINER_3_H
 #define PGDR_CONFORMING_FEATURE_REFINER_3_H
 
+#include <algorithm>
 #include <cmath>
-#include <deque>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <pgdr/conforming/acute_neighborhood_3.h>
@@ -11,33 +13,13 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/encroachment_3.h>
 #include <pgdr/conforming/facet_star_3.h>
+#include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/presence_3.h>
 #include <pgdr/conforming/split_point_3.h>
+#include <pgdr/domain/region_3.h>
 #include <pgdr/mesh/cavity_3.h>
 
 namespace pgdr {
-
-/// Why a subsegment or subfacet is to be split.
-enum class Split_reason : std::uint8_t {
-  missing,     ///< the 3D triangulation lacks it: conformity demands the split
-  encroached,  ///< a vertex lies in its diametral or equatorial ball, or a tetrahedron's Steiner point would
-  flat         ///< a tetrahedron has all four vertices on its facet
-};
-
-/// What became of a split.
-enum class Split_outcome : std::uint8_t {
-  inserted,  ///< a point was inserted, here or on the subsegment that was in the way
-  refused    ///< nothing was inserted: the edges would become too short
-};
-
-/// The shortest edge that a split may make next to small input angles. Away from these there is no such limit, since
-/// the theory promises one; next to them it is what keeps the refinement from going on for ever.
-struct Split_guard {
-  double floor = 0;                 ///< no new edge below this
-  std::array<Vec_3, 4> where{};     ///< "next to" is: one of these points
-  std::size_t count = 0;            ///< how many of them; 0: the split point itself
-  double reach = 0;                 ///< within this distance of a small angle; for `count` 0, 4 radii of the piece
-};
 
 /// Splits subsegments and subfacets until none is missing and none encroached: the one place that puts points on
 /// features. Subsegments come first; a facet's point yields to the subsegments that it encroaches, a segment's
@@ -45,6 +27,10 @@ struct Split_guard {
 ///
 /// Next to small input angles a piece that is merely encroached is not split if that would make an edge shorter
 /// than its `Split_guard` allows; nothing is ever split below the minimum edge length.
+///
+/// One object serves one thread. It inserts only points of its *region*; what has to be split elsewhere is handed
+/// out as errands. Where the split of a missing piece lies elsewhere the piece is *stranded*: it waits until nobody
+/// else is at work, since nothing is known of what the triangulation shows in its place.
 template <class Tr>
 class Feature_refiner_3 {
  public:
@@ -53,12 +39,9 @@ class Feature_refiner_3 {
   using Cell_handle = typename Tr::Cell_handle;
   using Point = typename Tr::Point;
 
-  /// A tetrahedron as it was when it was noted.
-  struct Cell_id {
-    Cell_handle cell;
-    unsigned int generation;
-    bool is_live() const { return cell->generation() == generation; }
-  };
+  using Pool = typename Complex::Pool;
+  using Cell_id = Cell_id_3<Cell_handle>;
+  using Errand = Feature_errand_3<Cell_handle>;
 
   Feature_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
       : tr_(tr), complex_(complex), acute_(acute), cavity_(tr),
@@ -70,17 +53,41 @@ class Feature_refiner_3 {
   Complex& complex() { return complex_; }
   const Acute_neighborhood_3& acute() const { return acute_; }
 
+  Pool& pool() { return pool_; }
+
   void request_subsegment(std::uint32_t s, Split_reason reason, double floor) {
-    subsegment_queue_.push_back({complex_.subsegment_id(s), reason, floor});
+    queues_.subsegments.push({complex_.subsegment_id(s), reason, floor});
   }
   void request_subfacet(std::uint32_t t, Split_reason reason, double floor) {
-    subfacet_queue_.push_back({complex_.subfacet_id(t), reason, floor});
+    queues_.subfacets.push({complex_.subfacet_id(t), reason, floor});
+  }
+  void request(bool is_subsegment, const Feature_request& r) {
+    (is_subsegment ? queues_.subsegments : queues_.subfacets).push(r);
   }
 
-  bool has_subsegments() const { return !subsegment_queue_.empty(); }
-  bool is_idle() const { return subsegment_queue_.empty() && subfacet_queue_.empty(); }
-  std::size_t pending() const { return subsegment_queue_.size() + subfacet_queue_.size(); }
+  /// Where points may be inserted, and where the vertices of a missing piece must be: all of space to begin with.
+  void set_region(const Region_3& region, const Region_3& near) {
+    region_ = region;
+    near_ = near;
+  }
+  const Region_3& region() const { return region_; }
+  Feature_queues& queues() { return queues_; }
+  bool has_subsegments() const { return !queues_.subsegments.empty(); }
+  bool is_idle() const { return queues_.empty(); }
+  std::size_t pending() const { return queues_.size(); }
   std::size_t inserted() const { return inserted_; }
+
+  /// Errands for other leaves, with the split point. The caller empties it.
+  std::vector<std::pair<Vec_3, std::unique_ptr<Errand>>>& outgoing() { return outgoing_; }
+  /// Missing pieces that cannot be split in this region. The caller empties it.
+  Feature_queues& stranded() { return stranded_; }
+  /// The point and the piece at which the last split was `elsewhere`.
+  struct Elsewhere {
+    Vec_3 at;
+    Piece_id piece;
+    bool is_subsegment = false;
+  };
+  const Elsewhere& elsewhere() const { return elsewhere_; }
 
   /// Handles one request, subsegments before subfacets. \pre not idle.
   void step() { handle(false); }
@@ -93,9 +100,11 @@ class Feature_refiner_3 {
 
   /// Splits a subsegment.
   Split_outcome split_subsegment(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
-    const auto s = complex_.subsegment(slot);
+    const auto& s = complex_.subsegment(slot);
     const Vec_3 a = position(s.vertices[0]), b = position(s.vertices[1]);
-    const Vec_3 m = subsegment_split_point(a, b, is_acute(s.vertices[0]), is_acute(s.vertices[1]));
+    const Vec_3 m = split_point_of_subsegment(slot);
+    if (!region_.contains(m)) return point_elsewhere(m, complex_.subsegment_id(slot), true);
+    if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
     const Point p(m.x, m.y, m.z);
     if (!cavity_.find(p, seed_for_subsegment(s, p))) return Split_outcome::refused;
     if (is_too_close(m, reason, guard, 0.5 * length(b - a))) return abandon();
@@ -114,21 +123,18 @@ class Feature_refiner_3 {
     // counts as their insertion radius is the shell's.
     for (const Vertex_handle end : s.vertices)
       if (is_acute(end)) v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
-    finish(v, complex_.halve_subsegment(slot, v), slot);
-    complex_.remove_subsegment(slot);
+    finish(v, complex_.halve_subsegment(pool_, slot, v), slot);
+    complex_.remove_subsegment(pool_, slot);
     return Split_outcome::inserted;
   }
 
   /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
   Split_outcome split_subfacet(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
-    const auto t = complex_.subfacet(slot);
-    const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
-    Vec_3 m = triangle_circumcenter(a, b, c);
-    const double radius = length(m - a);
-    // Off the center of cocircular vertices, or the next points would be cocircular again.
-    if (reason == Split_reason::flat) m = 0.8 * m + (0.2 / 3) * (a + b + c);
-    m = complex_.plane(t.facet).project(m);
+    const auto& t = complex_.subfacet(slot);
+    const Vec_3 m = split_point_of_subfacet(slot, reason);
     if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
+    if (!region_.contains(m)) return point_elsewhere(m, complex_.subfacet_id(slot), false);
+    if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
     const Point p(m.x, m.y, m.z);
 
     const Located at = locate(slot, p);
@@ -145,6 +151,8 @@ class Feature_refiner_3 {
         cavity_.abandon();
         return give_way(f.slot);
       }
+    const double radius =
+        triangle_circumradius(position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2]));
     if (is_too_close(m, reason, guard, radius)) return abandon();
     features_.mark_deleted(complex_, true);
     stars_.resize(1);
@@ -182,13 +190,72 @@ class Feature_refiner_3 {
 
   /// Called when every piece is present (again).
   void note_mended() { torn_ = false; }
+  /// Whether a subfacet was lost since.
+  bool is_torn() const { return torn_; }
+  void set_torn(bool torn) { torn_ = torn; }
+
+  /// Where an errand's split point is; for a piece that is gone, anywhere.
+  Vec_3 split_point(const Errand& e) const {
+    if (e.is_subsegment)
+      return complex_.is_live_subsegment(e.piece) ? split_point_of_subsegment(e.piece.slot) : e.home;
+    return complex_.is_live_subfacet(e.piece) ? split_point_of_subfacet(e.piece.slot, e.reason) : e.home;
+  }
+
+  /// Turns every queued request into an errand; missing pieces become stranded.
+  void hand_on_all() {
+    while (!is_idle()) {
+      const bool segment = has_subsegments();
+      const Feature_request r = segment ? queues_.subsegments.pop() : queues_.subfacets.pop();
+      if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) continue;
+      elsewhere_ = {segment ? split_point_of_subsegment(r.piece.slot) : split_point_of_subfacet(r.piece.slot, r.reason),
+                    r.piece, segment};
+      hand_on(r, segment);
+    }
+  }
+
+  /// Handles one missing piece, if one is queued; other requests go to the end of their queue. \pre not idle.
+  bool step_missing() {
+    for (const bool segment : {true, false}) {
+      auto& queue = segment ? queues_.subsegments : queues_.subfacets;
+      for (std::size_t n = queue.size(); n > 0; --n) {
+        const Feature_request r = queue.pop();
+        if (r.reason != Split_reason::missing) {
+          queue.push(r);
+          continue;
+        }
+        split(r, segment);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Does an errand that arrived here; appends what goes on from here to `outgoing`. True if the client, a
+  /// tetrahedron, is to be sent home; its `refused` says what is new.
+  bool run(std::unique_ptr<Errand>& errand) {
+    using Client = typename Errand::Client;
+    Errand& e = *errand;
+    const bool live = e.is_subsegment ? complex_.is_live_subsegment(e.piece) : complex_.is_live_subfacet(e.piece);
+    Split_outcome outcome = Split_outcome::inserted;
+    if (live)
+      outcome = e.is_subsegment ? split_subsegment(e.piece.slot, e.reason, e.guard)
+                                : split_subfacet(e.piece.slot, e.reason, e.guard);
+    if (outcome == Split_outcome::elsewhere) {
+      if (elsewhere_.is_subsegment != e.is_subsegment) e.reason = reason_for_redirect(e.reason);
+      e.piece = elsewhere_.piece;
+      e.is_subsegment = elsewhere_.is_subsegment;
+      outgoing_.emplace_back(elsewhere_.at, std::move(errand));
+      return false;
+    }
+    if (e.client == Client::subfacet && outcome == Split_outcome::inserted &&
+        complex_.is_live_subfacet(e.request.piece))
+      queues_.subfacets.push(e.request);
+    if (e.client != Client::tetrahedron) return false;
+    if (outcome == Split_outcome::refused) e.refused.push_back(e.obstacle);
+    return true;
+  }
 
  private:
-  struct Request {
-    Piece_id piece;
-    Split_reason reason;
-    double floor;
-  };
   struct Located {
     std::uint32_t subfacet;
     std::uint32_t subsegment;
@@ -196,19 +263,70 @@ class Feature_refiner_3 {
 
   void handle(bool only_missing) {
     const bool segment = has_subsegments();
-    std::deque<Request>& queue = segment ? subsegment_queue_ : subfacet_queue_;
-    const Request r = queue.front();
-    queue.pop_front();
-    if (only_missing && r.reason != Split_reason::missing) return;
+    const Feature_request r = segment ? queues_.subsegments.pop() : queues_.subfacets.pop();
+    if (!only_missing || r.reason == Split_reason::missing) split(r, segment);
+  }
+
+  void split(const Feature_request& r, bool segment) {
     if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) return;
     const std::uint32_t slot = r.piece.slot;
     const bool present = segment ? complex_.subsegment(slot).present : complex_.subfacet(slot).present;
     if (r.reason == Split_reason::missing && present) return;
     const Split_outcome outcome =
         segment ? split_subsegment(slot, r.reason, {r.floor}) : split_subfacet(slot, r.reason, {r.floor});
-    // Still there: a subsegment was split instead.
-    if (outcome == Split_outcome::inserted && !segment && complex_.is_live_subfacet(r.piece))
-      subfacet_queue_.push_back(r);
+    if (outcome == Split_outcome::elsewhere)
+      hand_on(r, segment);
+    else if (outcome == Split_outcome::inserted && !segment && complex_.is_live_subfacet(r.piece))
+      queues_.subfacets.push(r);  // still there: a subsegment was split instead
+  }
+
+  Vec_3 split_point_of_subsegment(std::uint32_t slot) const {
+    const auto& ends = complex_.subsegment(slot).vertices;
+    return subsegment_split_point(position(ends[0]), position(ends[1]), is_acute(ends[0]), is_acute(ends[1]));
+  }
+
+  Vec_3 split_point_of_subfacet(std::uint32_t slot, Split_reason reason) const {
+    const auto& t = complex_.subfacet(slot);
+    const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
+    Vec_3 m = triangle_circumcenter(a, b, c);
+    // Off the center of cocircular vertices, or the next points would be cocircular again.
+    if (reason == Split_reason::flat) m = 0.8 * m + (0.2 / 3) * (a + b + c);
+    return complex_.plane(t.facet).project(m);
+  }
+
+  Split_outcome point_elsewhere(const Vec_3& at, Piece_id piece, bool is_subsegment) {
+    elsewhere_ = {at, piece, is_subsegment};
+    return Split_outcome::elsewhere;
+  }
+
+  template <class Vertices>
+  bool is_near(const Vertices& vertices) const {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [this](Vertex_handle v) { return near_.contains_closed(position(v)); });
+  }
+
+  /// Of a missing piece nothing is known but its vertices; where these are far away, nobody else may be at work.
+  Split_outcome unsafe(const Vec_3& at, Piece_id piece, bool is_subsegment, Split_reason reason) {
+    return reason == Split_reason::missing ? point_elsewhere(at, piece, is_subsegment) : Split_outcome::refused;
+  }
+
+  /// Sends a request to where its point is; what is missing waits for quieter times.
+  void hand_on(const Feature_request& r, bool segment) {
+    if (r.reason == Split_reason::missing) {
+      (segment ? stranded_.subsegments : stranded_.subfacets).push(r);
+      return;
+    }
+    auto errand = std::make_unique<Errand>();
+    errand->piece = elsewhere_.piece;
+    errand->is_subsegment = elsewhere_.is_subsegment;
+    errand->guard = {r.floor};
+    const bool redirected = elsewhere_.is_subsegment != segment;
+    errand->reason = redirected ? reason_for_redirect(r.reason) : r.reason;
+    if (redirected) {
+      errand->client = Errand::Client::subfacet;
+      errand->request = r;
+    }
+    outgoing_.emplace_back(elsewhere_.at, std::move(errand));
   }
 
   bool is_acute(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
@@ -285,10 +403,10 @@ class Feature_refiner_3 {
     made_.clear();
     for (const auto& star : stars_) {
       unmark_survivors(tr_, complex_, star.removed());
-      star.apply(complex_, v, halves, made_);
+      star.apply(complex_, pool_, v, halves, made_);
     }
     for (const auto& f : features_.subfacets())
-      if (f.deleted && complex_.subfacet(f.slot).alive && complex_.subfacet(f.slot).scratch)
+      if (f.deleted && complex_.subfacet(f.slot).alive() && complex_.subfacet(f.slot).scratch)
         note_missing_subfacet(f.slot);
     features_.mark_deleted(complex_, false);
     for (const auto& f : features_.subsegments())
@@ -302,8 +420,8 @@ class Feature_refiner_3 {
     queue_encroached(v, halves);
     const auto& star = cavity_.star();
     for (const Cell_handle c : star) {
-      if (keep_fresh_) fresh_cells_.push_back({c, c->generation()});
-      if (keep_fresh_ && torn_) unlabelled_cells_.push_back({c, c->generation()});
+      if (keep_fresh_) fresh_cells_.push_back({c, c->generation(), 0});
+      if (keep_fresh_ && torn_) unlabelled_cells_.push_back({c, c->generation(), 0});
     }
   }
 
@@ -364,8 +482,13 @@ class Feature_refiner_3 {
   Cavity_features_3<Tr> features_;
   std::vector<Facet_star_3<Tr>> stars_;
   std::vector<std::uint32_t> made_;
-  std::deque<Request> subsegment_queue_;
-  std::deque<Request> subfacet_queue_;
+  Pool pool_;
+  Region_3 region_;
+  Region_3 near_;
+  Feature_queues queues_;
+  Feature_queues stranded_;
+  std::vector<std::pair<Vec_3, std::unique_ptr<Errand>>> outgoing_;
+  Elsewhere elsewhere_;
   std::vector<Cell_id> fresh_cells_;
   std::vector<Cell_id> unlabelled_cells_;
   double squared_min_edge_;

@@ -79,9 +79,19 @@ std::vector<typename Tr::Vertex_handle> insert_domain_vertices(Tr& tr, const Dom
   return handles;
 }
 
+/// A vertex on the convex hull: the lexicographically smallest one.
+template <class Tr>
+typename Tr::Vertex_handle corner_of_hull(const Tr& tr) {
+  typename Tr::Vertex_handle corner;
+  for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v)
+    if (corner == typename Tr::Vertex_handle() || v->point() < corner->point()) corner = v;
+  return corner;
+}
+
 /// Fills a complex with the domain's segments and facets, none of them marked present.
 template <class Tr>
-void build_complex(Constraint_complex_3<Tr>& complex, const std::vector<typename Tr::Vertex_handle>& handles) {
+void build_complex(Constraint_complex_3<Tr>& complex, typename Constraint_complex_3<Tr>::Pool& pool,
+                   const std::vector<typename Tr::Vertex_handle>& handles) {
   using Complex = Constraint_complex_3<Tr>;
   using Key = std::array<Index, 2>;
   const auto key = [](Index a, Index b) { return a < b ? Key{a, b} : Key{b, a}; };
@@ -90,7 +100,7 @@ void build_complex(Constraint_complex_3<Tr>& complex, const std::vector<typename
   std::vector<std::pair<Key, std::uint32_t>> segments;
   for (Index s = 0; s < domain.segments.size(); ++s) {
     const auto& v = domain.segments[s].vertices;
-    segments.emplace_back(key(v[0], v[1]), complex.add_subsegment(handles[v[0]], handles[v[1]], s));
+    segments.emplace_back(key(v[0], v[1]), complex.add_subsegment(pool, handles[v[0]], handles[v[1]], s));
   }
   std::sort(segments.begin(), segments.end());
 
@@ -106,7 +116,7 @@ void build_complex(Constraint_complex_3<Tr>& complex, const std::vector<typename
   for (Index f = 0; f < domain.facets.size(); ++f) {
     sides.clear();
     for (const auto& t : domain.facets[f].triangles) {
-      const std::uint32_t slot = complex.add_subfacet(handles[t[0]], handles[t[1]], handles[t[2]], f);
+      const std::uint32_t slot = complex.add_subfacet(pool, handles[t[0]], handles[t[1]], handles[t[2]], f);
       for (std::uint32_t i = 0; i < 3; ++i) {
         const Key k = key(t[(i + 1) % 3], t[(i + 2) % 3]);
         const auto at = std::lower_bound(segments.begin(), segments.end(), std::make_pair(k, 0u));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <pgdr/mesh/mesh_triangulation_3.h>
+#include <pgdr/mesh/zone_guard_3.h>
 
 namespace pgdr {
 
@@ -28,18 +29,33 @@ class Cavity_3 {
 
   explicit Cavity_3(Tr& tr) : tr_(&tr), partner_(table_side * table_side) {}
 
+  /// Whom to tell about every cell that is touched; null for nobody.
+  void set_guard(Zone_guard_3<Tr>* guard) { guard_ = guard; }
+
   /// Collects C(p) from a cell in conflict with p. False, with nothing marked, if `seed` is not in conflict.
   /// \pre p is no vertex and not outside the convex hull.
   bool find(const Point& p, Cell_handle seed) {
+    return find(p, seed, [](Cell_handle) { return true; });
+  }
+
+  /// The same, but gives up, with nothing marked, at the first cell of the cavity that is not `acceptable`.
+  template <class Acceptable>
+  bool find(const Point& p, Cell_handle seed, const Acceptable& acceptable) {
     cells_.clear();
     boundary_.clear();
+    if (guard_) guard_->touch(seed);
     if (!tr_->in_conflict(seed, p)) return false;
     seed->tds_data().mark_in_conflict();
     cells_.push_back(seed);
     for (std::size_t k = 0; k < cells_.size(); ++k) {
       const Cell_handle c = cells_[k];
+      if (!acceptable(c)) {
+        abandon();
+        return false;
+      }
       for (int i = 0; i < 4; ++i) {
         const Cell_handle n = c->neighbor(i);
+        if (guard_) guard_->touch(n);
         if (n->tds_data().is_in_conflict()) continue;
         if (n->tds_data().is_clear()) {
           if (tr_->in_conflict(n, p)) {
@@ -103,6 +119,7 @@ class Cavity_3 {
   /// What a new tetrahedron needs to know of its boundary triangle, copied out before slots are reused.
   struct Face {
     Vertex_handle vertices[4];
+    std::uint32_t numbers[4];  ///< of the vertices, within this boundary
     Cell_handle outside;
     std::uint32_t subfacet;
     std::int32_t subdomain;
@@ -112,18 +129,32 @@ class Cavity_3 {
   };
 
   void copy_boundary() {
+    constexpr std::uint32_t unnumbered = std::numeric_limits<std::uint32_t>::max();
     faces_.resize(boundary_.size());
     std::uint32_t number = 0;
+    // The infinite vertex is everybody's: its number is kept here.
+    const Vertex_handle infinite = tr_->infinite_vertex();
+    std::uint32_t number_of_infinite = unnumbered;
     for (const Facet& f : boundary_)
-      for (int j = 0; j < 4; ++j) f.first->vertex(j)->set_number(std::numeric_limits<std::uint32_t>::max());
+      for (int j = 0; j < 4; ++j)
+        if (j != f.second && f.first->vertex(j) != infinite) f.first->vertex(j)->set_number(unnumbered);
     for (std::size_t k = 0; k < boundary_.size(); ++k) {
       const Cell_handle c = boundary_[k].first;
       const int i = boundary_[k].second;
       Face& face = faces_[k];
       for (int j = 0; j < 4; ++j) {
-        face.vertices[j] = c->vertex(j);
-        if (j != i && c->vertex(j)->number() == std::numeric_limits<std::uint32_t>::max())
-          c->vertex(j)->set_number(number++);
+        const Vertex_handle v = c->vertex(j);
+        face.vertices[j] = v;
+        if (j == i) continue;
+        std::uint32_t n = v == infinite ? number_of_infinite : v->number();
+        if (n == unnumbered) {
+          n = number++;
+          if (v == infinite)
+            number_of_infinite = n;
+          else
+            v->set_number(n);
+        }
+        face.numbers[j] = n;
       }
       face.apex = static_cast<std::uint8_t>(i);
       face.outside = c->neighbor(i);
@@ -137,6 +168,8 @@ class Cavity_3 {
 
   void fill_star(Vertex_handle v) {
     star_.clear();
+    // The infinite vertex's cell is not kept up to date: see `restore_infinite_cell`.
+    const Vertex_handle infinite = tr_->infinite_vertex();
     for (std::size_t k = 0; k < faces_.size(); ++k) {
       Cell_handle c;
       if (k < cells_.size()) {
@@ -146,13 +179,14 @@ class Cavity_3 {
         c->tds_data().clear();
       } else {
         c = tr_->tds().create_cell();
+        if (guard_) guard_->adopt(c);
       }
       const Face& face = faces_[k];
       for (int j = 0; j < 4; ++j) {
         c->set_subfacet(j, Tr::Cell::no_subfacet);
         if (j == face.apex) continue;
         c->set_vertex(j, face.vertices[j]);
-        face.vertices[j]->set_cell(c);
+        if (face.vertices[j] != infinite) face.vertices[j]->set_cell(c);
       }
       c->set_vertex(face.apex, v);
       c->set_subfacet(face.apex, face.subfacet);
@@ -189,7 +223,7 @@ class Cavity_3 {
         int others[2], n = 0;
         for (int m = 0; m < 4; ++m)
           if (m != j && m != face.apex) others[n++] = m;
-        const std::uint32_t a = face.vertices[others[0]]->number(), b = face.vertices[others[1]]->number();
+        const std::uint32_t a = face.numbers[others[0]], b = face.numbers[others[1]];
         std::uint32_t& s = slot(std::min(a, b), std::max(a, b));
         if (s == 0) {
           s = 4 * k + static_cast<std::uint32_t>(j) + 1;
@@ -204,6 +238,7 @@ class Cavity_3 {
   }
 
   Tr* tr_;
+  Zone_guard_3<Tr>* guard_ = nullptr;
   std::vector<Cell_handle> cells_;
   std::vector<Facet> boundary_;
   std::vector<Face> faces_;

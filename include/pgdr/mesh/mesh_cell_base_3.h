@@ -3,6 +3,7 @@
 #define PGDR_MESH_MESH_CELL_BASE_3_H
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include <CGAL/Triangulation_cell_base_3.h>
@@ -23,8 +24,8 @@ constexpr std::uint8_t edges_at(int i) {
 /// Cell of the mesh: its subdomain, which of its facets are subfacets and which of its edges subsegments.
 ///
 /// `generation()` tells whether a remembered cell is still the same tetrahedron: it changes whenever the slot
-/// is reused. It outlives the cell: the constructors leave it alone, as with CGAL's erase counters. Accesses are
-/// volatile because compilers may assume that what was stored before a constructor is lost.
+/// is reused. It outlives the cell: the constructors leave it alone, as with CGAL's erase counters. It is accessed
+/// atomically, since a distant task may reuse the slot while somebody else looks whether the cell is still there.
 template <class Gt, class Cb = CGAL::Triangulation_cell_base_3<Gt>>
 class Mesh_cell_base_3 : public Cb {
  public:
@@ -59,17 +60,23 @@ class Mesh_cell_base_3 : public Cb {
   std::uint8_t subsegment_edges() const { return edges_; }
   void set_subsegment_edges(std::uint8_t e) { edges_ = e; }
 
-  unsigned int generation() const { return const_cast<const volatile unsigned int&>(generation_); }
-  void advance_generation() { const_cast<volatile unsigned int&>(generation_) = generation() + 1; }
+  unsigned int generation() const { return atomic_generation().load(std::memory_order_relaxed); }
+  void advance_generation() { set_erase_counter(generation() + 1); }
 
   // The names under which CGAL's containers keep the counter across erase and reuse of a slot.
   unsigned int erase_counter() const { return generation(); }
-  void set_erase_counter(unsigned int c) { const_cast<volatile unsigned int&>(generation_) = c; }
+  void set_erase_counter(unsigned int c) { atomic_generation().store(c, std::memory_order_relaxed); }
   void increment_erase_counter() { advance_generation(); }
 
+  /// Tag of the task that works on the cell, 0 for none; kept by `Zone_guard_3` in checked runs only.
+  std::atomic_ref<std::uint16_t> owner() const { return std::atomic_ref<std::uint16_t>(owner_); }
+
  private:
+  std::atomic_ref<unsigned int> atomic_generation() const { return std::atomic_ref<unsigned int>(generation_); }
+
   std::uint8_t edges_ = 0;
-  unsigned int generation_;
+  mutable std::uint16_t owner_ = 0;
+  mutable unsigned int generation_;
   std::int32_t subdomain_ = 0;
   std::array<std::uint32_t, 4> subfacets_{no_subfacet, no_subfacet, no_subfacet, no_subfacet};
 };

@@ -2,6 +2,9 @@
 #ifndef PGDR_MESH_MESH_TRIANGULATION_3_H
 #define PGDR_MESH_MESH_TRIANGULATION_3_H
 
+#include <iterator>
+#include <vector>
+
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Triangulation_data_structure_3.h>
 
@@ -13,8 +16,9 @@ namespace pgdr {
 
 /// The Delaunay triangulation that is refined: CGAL's, with the mesh's vertices and cells.
 ///
-/// `Concurrency_tag` chooses CGAL's containers; the refinement itself never asks which.
-template <class Gt, class Concurrency_tag = CGAL::Sequential_tag>
+/// `Concurrency_tag` chooses CGAL's containers; the refinement itself never asks which. The default lets several
+/// threads insert at once, each where no other is at work.
+template <class Gt, class Concurrency_tag = CGAL::Parallel_tag>
 class Mesh_triangulation_3
     : public CGAL::Delaunay_triangulation_3<
           Gt, CGAL::Triangulation_data_structure_3<Mesh_vertex_base_3<Gt>, Mesh_cell_base_3<Gt>, Concurrency_tag>> {
@@ -39,6 +43,18 @@ class Mesh_triangulation_3
       return this->side_of_oriented_sphere(v0->point(), v1->point(), v2->point(), v3->point(), p, true) ==
              CGAL::ON_POSITIVE_SIDE;
     return this->side_of_sphere(c, p, true) == CGAL::ON_BOUNDED_SIDE;
+  }
+
+  /// Makes the infinite vertex's cell valid again. `Cavity_3` leaves it alone, since it is the one location that
+  /// tasks far from each other would both write. `on_hull` is any vertex on the convex hull.
+  void restore_infinite_cell(Vertex_handle on_hull) {
+    std::vector<Cell_handle> around;
+    this->tds().incident_cells(on_hull, std::back_inserter(around));
+    for (const Cell_handle c : around)
+      if (this->is_infinite(c)) {
+        this->infinite_vertex()->set_cell(c);
+        return;
+      }
   }
 };
 

@@ -3,8 +3,9 @@
 #define PGDR_REFINEMENT_DELAUNAY_LEAF_REFINER_3_H
 
 #include <algorithm>
-#include <deque>
-#include <functional>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,10 @@
 #include <pgdr/conforming/feature_refiner_3.h>
 #include <pgdr/conforming/flat_cell_3.h>
 #include <pgdr/conforming/subdomains_3.h>
+#include <pgdr/refinement/cell_scan_3.h>
+#include <pgdr/refinement/enclosing_ball.h>
 #include <pgdr/refinement/leaf_refiner.h>
+#include <pgdr/refinement/leaf_worklist_3.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
@@ -23,7 +27,8 @@ namespace pgdr {
 ///
 /// A circumcenter that encroaches a subsegment or subfacet, or that would delete one, is not inserted; the feature
 /// is split instead. A tetrahedron is given up only next to a small input angle, when every such split would make
-/// an edge too short (`shortest_allowed`).
+/// an edge too short (`shortest_allowed`). Outside the domain, tetrahedra are refined only as far as the zone
+/// condition of the leaves needs it, and never at the expense of a feature.
 template <class Tr, class Criteria>
 class Delaunay_leaf_refiner_3 {
  public:
@@ -31,64 +36,306 @@ class Delaunay_leaf_refiner_3 {
   using Vertex_handle = typename Tr::Vertex_handle;
   using Point = typename Tr::Point;
   using Features = Feature_refiner_3<Tr>;
-  using Cell_id = typename Features::Cell_id;
   using Complex = Constraint_complex_3<Tr>;
+  using Worklist = Leaf_worklist_3<Tr>;
+  using Parcel = typename Worklist::Parcel;
+  using Cell_id = typename Worklist::Cell_id;
+  using Errand = typename Worklist::Errand;
 
-  struct Worklist {
-    std::deque<Cell_id> poor;
-    std::vector<Cell_id> forwarded;
-    bool empty() const { return poor.empty(); }
-    std::size_t size() const { return poor.size(); }
+  /// The scratch memory of one thread.
+  class Worker {
+   public:
+    Worker(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
+        : features_(tr, complex, acute, min_edge_length) {
+      features_.keep_fresh_cells(true);
+    }
+
+   private:
+    friend Delaunay_leaf_refiner_3;
+    Features features_;
+    Zone_guard_3<Tr> guard_;
+    Leaf_task task_;
+    std::vector<Piece_id> segments_in_the_way_;
+    std::vector<Piece_id> facets_in_the_way_;
   };
 
-  /// `should_stop` is asked before every insertion. When it says so, facets that are torn at that moment are mended
-  /// first, which may take a few points more.
-  Delaunay_leaf_refiner_3(Tr& tr, Features& features, const Criteria& criteria, std::function<bool()> should_stop)
-      : tr_(tr), features_(features), criteria_(criteria), should_stop_(std::move(should_stop)) {
+  Delaunay_leaf_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, const Criteria& criteria,
+                          double min_edge_length)
+      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length) {
     measure_hull();
   }
 
-  /// Puts a tetrahedron on the worklist if it is poor; flat ones on a facet become requests to split that facet.
-  void classify(Cell_handle c, Worklist& worklist) {
-    if (c->subdomain() == 0) return;
-    if (c->has_subfacet() && is_handed_over(c)) return;
-    if (criteria_.is_poor(tetrahedron_ball(points(c)), c->subdomain()))
-      worklist.poor.push_back({c, c->generation()});
+  std::unique_ptr<Worker> make_worker() const {
+    return std::make_unique<Worker>(tr_, complex_, acute_, min_edge_length_);
   }
 
-  Drain_result drain(const Leaf_region& region, Worklist& worklist) {
+  /// The bounding box of all vertices, which is the convex hull, and one of its corners.
+  const Region_3& hull() const { return hull_; }
+  Vertex_handle corner() const { return corner_; }
+
+  /// A worklist with every poor tetrahedron of the domain, for a leaf that is everything. \pre no other thread works
+  Worklist everything(Worker& w) {
+    Worklist list;
+    open(w, Leaf_task{}, list);
+    list.set_anchor(corner_);
+    w.task_.target = std::numeric_limits<double>::infinity();
+    for (auto c = tr_.finite_cells_begin(); c != tr_.finite_cells_end(); ++c) classify(w, c, list);
+    close(w, list);
+    return list;
+  }
+
+  /// Adds the tetrahedra outside the domain. \pre no other thread works, and none but one ever did
+  void add_outside(Worker& w, Worklist& list, double outside_target) {
+    Leaf_task task;
+    task.outside_target = outside_target;
+    open(w, task, list);
+    for (auto c = tr_.finite_cells_begin(); c != tr_.finite_cells_end(); ++c)
+      if (c->subdomain() == 0) classify(w, c, list);
+    close(w, list);
+  }
+
+  Drain_result drain(Worker& w, const Leaf_task& task, Worklist& list) {
+    open(w, task, list);
+    Features& features = w.features_;
+    const std::size_t on_features = features.inserted();
     Drain_result result;
-    const std::size_t on_features = features_.inserted();
     while (true) {
-      if (should_stop_()) {
+      if (result.inserted + features.inserted() - on_features >= task.quota ||
+          (task.cancel && task.cancel->load(std::memory_order_relaxed))) {
         result.stopped = true;
-        features_.close(10000);
-        mend_subdomains();
         break;
       }
-      if (!features_.is_idle()) {
-        features_.step();
+      if (!features.is_idle()) {
+        features.step();
         continue;
       }
+      if (!list.errands_.empty()) {
+        run_errand(w, list);
+        continue;
+      }
+      if (task.features_only || !features.stranded().empty()) break;
       // Only now, with every facet whole, is it known again on which side of it a new tetrahedron is.
-      mend_subdomains();
-      if (!features_.fresh_cells().empty()) {
-        take_fresh_cells(worklist);
+      mend_subdomains(features);
+      if (!features.fresh_cells().empty()) {
+        take_fresh_cells(w, list);
         continue;
       }
-      if (worklist.poor.empty()) break;
-      prefetch(worklist.poor);
-      const Cell_id id = worklist.poor.front();
-      worklist.poor.pop_front();
-      if (id.is_live() && id.cell->subdomain() != 0) refine(id, region, worklist, result);
+      if (!list.retries_.empty()) {
+        const auto errand = list.retries_.pop();
+        if (errand->cell.is_live()) refine(w, errand->cell, errand->refused, list, result);
+        continue;
+      }
+      if (list.active_.empty()) break;
+      prefetch(list.active_);
+      const Cell_id id = list.active_.pop();
+      if (id.is_live()) refine(w, id, {}, list, result);
     }
-    result.inserted += features_.inserted() - on_features;
+    result.inserted += features.inserted() - on_features;
+    close(w, list);
     return result;
   }
 
+  void receive(Worklist& list, Parcel&& parcel, double target, double outside_target) const {
+    using Kind = typename Parcel::Kind;
+    switch (parcel.kind) {
+      case Kind::poor:
+        if (!parcel.cell.is_live()) break;
+        if (parcel.cell.cell->subdomain() != 0)
+          list.add_poor(parcel.cell, target);
+        else if (static_cast<double>(parcel.cell.radius) > outside_target)
+          list.active_.push(parcel.cell);
+        else
+          list.outside_.push_back(parcel.cell);
+        break;
+      case Kind::errand: list.errands_.push(std::move(parcel.errand)); break;
+      case Kind::retry: list.retries_.push(std::move(parcel.errand)); break;
+      case Kind::coarse: list.note_coarse(static_cast<double>(parcel.cell.radius)); break;
+    }
+  }
+
+  /// Deferred elements that are above the target become active.
+  void activate(Worklist& list, double target, double outside_target) const {
+    const auto sift = [&list](std::vector<Cell_id>& from, double above) {
+      std::size_t kept = 0;
+      for (const Cell_id& id : from) {
+        if (!id.is_live()) continue;
+        if (static_cast<double>(id.radius) > above)
+          list.active_.push(id);
+        else
+          from[kept++] = id;
+      }
+      from.resize(kept);
+      if (kept == 0) from.shrink_to_fit();
+    };
+    sift(list.deferred_, target);
+    sift(list.outside_, outside_target);
+  }
+
+  /// Empties a worklist into `sink(Parcel)`. \pre it has no outgoing parcels and no piece is stranded
+  template <class Sink>
+  void dispatch(Worker& w, Worklist& list, const Sink& sink) const {
+    using Kind = typename Parcel::Kind;
+    open(w, Leaf_task{}, list);
+    w.features_.hand_on_all();
+    close(w, list);
+    for (Parcel& p : list.outgoing_) sink(std::move(p));
+    list.outgoing_.clear();
+    while (!list.errands_.empty()) {
+      auto e = list.errands_.pop();
+      const Vec_3 at = w.features_.split_point(*e);
+      sink(Parcel{at, Kind::errand, {}, std::move(e)});
+    }
+    while (!list.retries_.empty()) {
+      auto e = list.retries_.pop();
+      const Vec_3 home = e->home;
+      sink(Parcel{home, Kind::retry, {}, std::move(e)});
+    }
+    const auto send = [&](const Cell_id& id) {
+      if (id.is_live()) sink(Parcel{steiner_point(id.cell), Kind::poor, id, nullptr});
+    };
+    while (!list.active_.empty()) send(list.active_.pop());
+    for (const Cell_id& id : list.deferred_) send(id);
+    for (const Cell_id& id : list.outside_) send(id);
+    list.deferred_ = {};
+    list.outside_ = {};
+    list.release_memory();
+  }
+
+  /// Splits, with nobody else at work, the missing pieces that no leaf could split, mends the subdomains, and leaves
+  /// what follows from it in `list`, for `dispatch`. `closing` also recovers what is missing elsewhere and drops all
+  /// other requests, so that a run that has to stop leaves every facet whole.
+  template <class Lists>
+  Drain_result settle(Worker& w, Lists&& torn, bool closing, double outside_target, Worklist& list) {
+    for (Worklist* t : torn) take_torn(*t, closing, list);
+    Leaf_task task;
+    task.target = std::numeric_limits<double>::infinity();
+    task.outside_target = outside_target;
+    open(w, task, list);
+    Features& features = w.features_;
+    const std::size_t before = features.inserted();
+    if (closing)
+      features.close(10000);
+    else
+      while (features.step_missing()) {
+      }
+    features.queues().subsegments.release_if_empty();
+    mend_subdomains(features);
+    features.set_torn(false);
+    collect_coarse_ = true;
+    take_fresh_cells(w, list);
+    collect_coarse_ = false;
+    Drain_result result;
+    result.inserted = features.inserted() - before;
+    close(w, list);
+    list.torn_ = false;
+    return result;
+  }
+
+  /// What the deferred elements ask for, from a sample of them.
+  Work_estimate estimate(const Worklist& list) const {
+    constexpr std::size_t samples = 64;
+    Work_estimate e;
+    const std::size_t n = list.deferred_.size(), step = (n + samples - 1) / samples;
+    for (std::size_t k = 0; k < n; k += step) {
+      const Cell_id& id = list.deferred_[k];
+      if (!id.is_live()) continue;
+      const double size = criteria_.size_at(tetrahedron_ball(points(id.cell)).center);
+      const double f = static_cast<double>(id.radius) / size;
+      e.insertions += static_cast<double>(std::min(step, n - k)) * std::max(1.0, std::min(f * f * f, 1e12));
+      e.smallest_size = std::min(e.smallest_size, size);
+    }
+    return e;
+  }
+
+  /// Whether every tetrahedron that meets the box, but is not inside the hole, has m < bound. Reads only.
+  bool is_finer(const Region_3& box, const Region_3& hole, double bound, const Worklist& list) const {
+    Cell_scan_3<Tr> scan(tr_);
+    return scan.visit(
+        nearest_in_hull(box), list.anchor(), [&](Cell_handle c) { return boxes_meet(points(c), box); },
+        [&](Cell_handle c) {
+          const Tetrahedron_points p = points(c);
+          if (!boxes_meet(p, box) || is_inside(p, hole)) return true;
+          const Tetrahedron_ball b = tetrahedron_ball(p);
+          return b.squared_radius < bound * bound * (1 - 1e-8) || enclosing_radius(p) < bound;
+        });
+  }
+
+  /// Whether every tetrahedron whose circumball meets the box has a circumradius < bound. Reads only.
+  bool has_smaller_circumballs(const Region_3& box, double bound, const Worklist& list) const {
+    Cell_scan_3<Tr> scan(tr_);
+    const auto meets = [&](Cell_handle c) {
+      const Tetrahedron_ball b = tetrahedron_ball(points(c));
+      const double d = distance_to_box(b.center, box);
+      return d * d < b.squared_radius;
+    };
+    return scan.visit(nearest_in_hull(box), list.anchor(), meets, [&](Cell_handle c) {
+      return !meets(c) || tetrahedron_ball(points(c)).squared_radius < bound * bound * (1 - 1e-8);
+    });
+  }
+
  private:
-  /// The queue walks all over the mesh; asking for what comes next hides most of the way to memory.
-  static void prefetch(const std::deque<Cell_id>& queue) {
+  static constexpr float upwards = 1.000001f;
+
+  /// Lends the queues of a leaf to a thread, and takes them back.
+  void open(Worker& w, const Leaf_task& task, Worklist& list) const {
+    w.task_ = task;
+    Features& f = w.features_;
+    f.set_region(task.region, task.near);
+    std::swap(f.queues(), list.queues_);
+    std::swap(f.stranded(), list.stranded_);
+    std::swap(f.fresh_cells(), list.fresh_);
+    std::swap(f.unlabelled_cells(), list.unlabelled_);
+    f.set_torn(list.torn_);
+    if (task.tag) {
+      w.guard_.open(tr_, task.reach, task.tag);
+      f.cavity().set_guard(&w.guard_);
+    }
+  }
+
+  void close(Worker& w, Worklist& list) const {
+    Features& f = w.features_;
+    for (auto& [at, errand] : f.outgoing())
+      list.outgoing_.push_back({at, Parcel::Kind::errand, {}, std::move(errand)});
+    f.outgoing().clear();
+    // Torn beyond this task: what is stranded, and what could not be mended because a neighbour is torn.
+    list.torn_ = !f.stranded().empty() || !f.unlabelled_cells().empty();
+    std::swap(f.queues(), list.queues_);
+    std::swap(f.stranded(), list.stranded_);
+    std::swap(f.fresh_cells(), list.fresh_);
+    std::swap(f.unlabelled_cells(), list.unlabelled_);
+    if (w.task_.tag) {
+      f.cavity().set_guard(nullptr);
+      w.guard_.close();
+    }
+    list.release_memory();
+  }
+
+  static void take_torn(Worklist& from, bool closing, Worklist& into) {
+    const auto move = [](Fifo<Feature_request>& a, Fifo<Feature_request>& b) {
+      while (!a.empty()) b.push(a.pop());
+    };
+    move(from.stranded_.subsegments, into.queues_.subsegments);
+    move(from.stranded_.subfacets, into.queues_.subfacets);
+    if (closing) {
+      move(from.queues_.subsegments, into.queues_.subsegments);
+      move(from.queues_.subfacets, into.queues_.subfacets);
+    }
+    into.unlabelled_.insert(into.unlabelled_.end(), from.unlabelled_.begin(), from.unlabelled_.end());
+    from.unlabelled_.clear();
+    from.torn_ = false;
+    into.torn_ = true;
+    if (into.anchor_ == Vertex_handle()) into.anchor_ = from.anchor_;
+  }
+
+  void run_errand(Worker& w, Worklist& list) const {
+    auto errand = list.errands_.pop();
+    if (!w.features_.run(errand)) return;
+    const Vec_3 home = errand->home;
+    list.outgoing_.push_back({home, Parcel::Kind::retry, {}, std::move(errand)});
+  }
+
+  /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
+  static void prefetch(const Fifo<Cell_id>& queue) {
     constexpr std::size_t far = 16, near = 8;
     if (queue.size() <= far) return;
     const char* next = reinterpret_cast<const char*>(&*queue[far].cell);
@@ -102,52 +349,124 @@ class Delaunay_leaf_refiner_3 {
     }
   }
 
-  void refine(const Cell_id& id, const Leaf_region& region, Worklist& worklist, Drain_result& result) {
+  /// Puts a tetrahedron on the worklist if it is poor; flat ones on a facet become requests to split that facet.
+  void classify(Worker& w, Cell_handle c, Worklist& list) {
+    if (c->subdomain() == 0) return classify_outside(w, c, list);
+    if (c->has_subfacet() && is_handed_over(w, c)) return classify_outside(w, c, list);
+    const Tetrahedron_ball ball = tetrahedron_ball(points(c));
+    const float radius = upwards * static_cast<float>(std::sqrt(ball.squared_radius));
+    if (criteria_.is_poor(ball, c->subdomain()))
+      list.add_poor({c, c->generation(), radius}, w.task_.target);
+    else
+      note_coarse(c, static_cast<double>(radius), list);
+  }
+
+  void classify_outside(Worker& w, Cell_handle c, Worklist& list) {
+    const double target = w.task_.outside_target;
+    if (target == std::numeric_limits<double>::infinity() || tr_.is_infinite(c)) return;
+    const Tetrahedron_points p = points(c);
+    const double r = std::sqrt(tetrahedron_ball(p).squared_radius);
+    const double m = r <= target ? r : enclosing_radius(p);
+    const Cell_id id{c, c->generation(), upwards * static_cast<float>(m)};
+    if (m > target)
+      list.active_.push(id);
+    else if (m > 0.25 * target)
+      list.outside_.push_back(id);  // smaller leaves may come
+    else
+      note_coarse(c, m * static_cast<double>(upwards), list);
+  }
+
+  void note_coarse(Cell_handle c, double radius, Worklist& list) const {
+    list.note_coarse(radius);
+    if (collect_coarse_)
+      list.outgoing_.push_back({position(c->vertex(0)), Parcel::Kind::coarse,
+                                {c, c->generation(), upwards * static_cast<float>(radius)}, nullptr});
+  }
+
+  void give_up(const Tetrahedron_points& corners, Worklist& list, Drain_result& result) const {
+    list.note_coarse(enclosing_radius(corners));
+    ++result.refused;
+  }
+
+  void refine(Worker& w, const Cell_id& id, const std::vector<Piece_id>& refused, Worklist& list,
+              Drain_result& result) {
+    const bool outside = id.cell->subdomain() == 0;
+    if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
     const Tetrahedron_points corners = points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    const Vec_3 center = into_hull(ball.center, corners);
-    if (!region.contains(center)) {
-      worklist.forwarded.push_back(id);
-      ++result.forwarded;
+    const Vec_3 center = outside ? clamp_to_hull(ball.center) : into_hull(ball.center, corners);
+    if (!w.task_.region.contains(center)) {
+      list.outgoing_.push_back({center, Parcel::Kind::poor, id, nullptr});
       return;
     }
     const Point p(center.x, center.y, center.z);
-    Cavity_3<Tr>& cavity = features_.cavity();
-    if (!cavity.find(p, id.cell) && !find_with_exact_center(id.cell, corners)) {
-      ++result.refused;
-      return;
-    }
-    features_.features().gather(features_.complex(), cavity);
-    if (collect_obstacles(p)) {
+    Cavity_3<Tr>& cavity = w.features_.cavity();
+    const bool found = outside ? cavity.find(p, id.cell, [&](Cell_handle c) { return !encroaches_subfacet_of(c, p); })
+                               : cavity.find(p, id.cell) || find_with_exact_center(w, id.cell, corners);
+    if (!found) return give_up(corners, list, result);
+    w.features_.features().gather(complex_, cavity);
+    const bool blocked = collect_obstacles(w, p);
+    if (outside && (blocked || is_crowded(w, center))) {
       cavity.abandon();
-      if (split_obstacle(id.cell, ball, corners)) {
-        if (id.is_live()) worklist.poor.push_back(id);
-      } else {
-        ++result.refused;
+      return give_up(corners, list, result);
+    }
+    if (blocked) {
+      cavity.abandon();
+      switch (split_obstacle(w, id, center, ball, corners, refused)) {
+        case Split_outcome::inserted:
+          if (id.is_live()) list.active_.push(id);
+          break;
+        case Split_outcome::refused: give_up(corners, list, result); break;
+        case Split_outcome::elsewhere: break;  // travels with the errand
       }
       return;
     }
     const Vertex_handle v = cavity.commit(p);
     v->set_feature(3, Tr::Vertex::none);
     v->set_insertion_radius(std::sqrt(ball.squared_radius));
+    list.set_anchor(v);
     ++result.inserted;
-    for (const Cell_handle c : cavity.star()) classify(c, worklist);
+    for (const Cell_handle c : cavity.star()) classify(w, c, list);
   }
 
   static Tetrahedron_points points(Cell_handle c) {
     return {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))};
   }
 
+  Vec_3 steiner_point(Cell_handle c) const {
+    const Tetrahedron_points corners = points(c);
+    const Tetrahedron_ball ball = tetrahedron_ball(corners);
+    return c->subdomain() == 0 ? clamp_to_hull(ball.center) : into_hull(ball.center, corners);
+  }
+
   void measure_hull() {
     bool first = true;
     for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) {
       const Vec_3 p = position(Vertex_handle(v));
+      bool lowest = true;
       for (int i = 0; i < 3; ++i) {
+        lowest = lowest && (first || p[i] <= hull_.lower[i]);
         hull_.lower[i] = first ? p[i] : std::min(hull_.lower[i], p[i]);
         hull_.upper[i] = first ? p[i] : std::max(hull_.upper[i], p[i]);
       }
+      if (lowest) corner_ = v;
       first = false;
     }
+  }
+
+  Vec_3 clamp_to_hull(Vec_3 p) const {
+    for (int i = 0; i < 3; ++i) p[i] = std::clamp(p[i], hull_.lower[i], hull_.upper[i]);
+    return p;
+  }
+
+  /// A point of the box in the hull, or the point of the hull that is nearest to it.
+  Vec_3 nearest_in_hull(const Region_3& box) const {
+    Vec_3 p;
+    for (int i = 0; i < 3; ++i) {
+      const double lo = std::max(box.lower[i], hull_.lower[i]), hi = std::min(box.upper[i], hull_.upper[i]);
+      p[i] = std::clamp(0.5 * (lo + hi), hull_.lower[i], hull_.upper[i]);
+    }
+    return p;
   }
 
   /// The Steiner point of a ball whose center is outside the hull: where the way from the tetrahedron to the center
@@ -160,41 +479,54 @@ class Delaunay_leaf_refiner_3 {
       if (center[i] > hull_.upper[i]) t = std::min(t, (hull_.upper[i] - from[i]) / (center[i] - from[i]));
     }
     if (t == 1) return center;
-    Vec_3 p = from + t * (center - from);
-    for (int i = 0; i < 3; ++i) p[i] = std::clamp(p[i], hull_.lower[i], hull_.upper[i]);
-    return p;
+    return clamp_to_hull(from + t * (center - from));
+  }
+
+  /// Whether p lies in the equatorial ball of a subfacet on the cell. A point outside the domain does so more often than
+  /// not, and its cavity is large: better to know at the first of its cells.
+  bool encroaches_subfacet_of(Cell_handle c, const Point& p) const {
+    if (!c->has_subfacet()) return false;
+    for (int i = 0; i < 4; ++i)
+      if (c->subfacet(i) != Complex::none && is_encroached(complex_.subfacet(c->subfacet(i)), p)) return true;
+    return false;
+  }
+
+  /// Whether a point outside the domain would come closer to a vertex than the refinement out there needs.
+  bool is_crowded(Worker& w, const Vec_3& p) const {
+    const double least = 0.5 * w.task_.outside_target;
+    return w.features_.cavity().squared_insertion_radius(p) < least * least;
   }
 
   /// Rounding can put the center of a flat tetrahedron outside of its own ball.
-  bool find_with_exact_center(Cell_handle c, const Tetrahedron_points& corners) {
+  bool find_with_exact_center(Worker& w, Cell_handle c, const Tetrahedron_points& corners) const {
     const Vec_3 center = into_hull(exact_tetrahedron_ball(corners).center, corners);
-    return features_.cavity().find(Point(center.x, center.y, center.z), c);
+    return w.task_.region.contains(center) &&
+           w.features_.cavity().find(Point(center.x, center.y, center.z), c);
   }
 
   /// Notes the features that keep p out; subsegments first, and among subfacets first the one below p.
-  bool collect_obstacles(const Point& p) {
-    Complex& complex = features_.complex();
-    segments_in_the_way_.clear();
-    facets_in_the_way_.clear();
-    for (const auto& f : features_.features().subsegments())
-      if (f.deleted || is_encroached(complex.subsegment(f.slot), p))
-        segments_in_the_way_.push_back(complex.subsegment_id(f.slot));
-    for (const auto& f : features_.features().subfacets()) {
-      const auto& t = complex.subfacet(f.slot);
+  bool collect_obstacles(Worker& w, const Point& p) const {
+    w.segments_in_the_way_.clear();
+    w.facets_in_the_way_.clear();
+    for (const auto& f : w.features_.features().subsegments())
+      if (f.deleted || is_encroached(complex_.subsegment(f.slot), p))
+        w.segments_in_the_way_.push_back(complex_.subsegment_id(f.slot));
+    for (const auto& f : w.features_.features().subfacets()) {
+      const auto& t = complex_.subfacet(f.slot);
       if (!f.deleted && !is_encroached(t, p)) continue;
-      facets_in_the_way_.push_back(complex.subfacet_id(f.slot));
-      if (facets_in_the_way_.size() > 1 && is_below(t, p))
-        std::swap(facets_in_the_way_.front(), facets_in_the_way_.back());
+      w.facets_in_the_way_.push_back(complex_.subfacet_id(f.slot));
+      if (w.facets_in_the_way_.size() > 1 && is_below(t, p))
+        std::swap(w.facets_in_the_way_.front(), w.facets_in_the_way_.back());
     }
-    return !segments_in_the_way_.empty() || !facets_in_the_way_.empty();
+    return !w.segments_in_the_way_.empty() || !w.facets_in_the_way_.empty();
   }
 
   /// Whether p's projection onto the facet falls into the subfacet.
   bool is_below(const typename Complex::Subfacet& t, const Point& p) const {
-    const Vec_3 q = features_.complex().plane(t.facet).project(to_vec(p));
+    const Vec_3 q = complex_.plane(t.facet).project(to_vec(p));
     const Point foot(q.x, q.y, q.z);
     for (std::size_t i = 0; i < 3; ++i)
-      if (features_.complex().orientation(t.facet, t.vertices[i]->point(), t.vertices[(i + 1) % 3]->point(), foot) ==
+      if (complex_.orientation(t.facet, t.vertices[i]->point(), t.vertices[(i + 1) % 3]->point(), foot) ==
           CGAL::NEGATIVE)
         return false;
     return true;
@@ -215,40 +547,62 @@ class Delaunay_leaf_refiner_3 {
     return criteria_.is_over_ratio(ball) ? allowed : std::min(allowed, 0.5 * std::sqrt(ball.squared_radius));
   }
 
-  bool split_obstacle(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) {
-    const Split_guard guard{shortest_allowed(c, ball, corners), corners, 4, 4 * std::sqrt(ball.squared_radius)};
-    for (const Piece_id& s : segments_in_the_way_)
-      if (features_.split_subsegment(s.slot, Split_reason::encroached, guard) == Split_outcome::inserted) return true;
-    if (!segments_in_the_way_.empty()) return false;
-    for (const Piece_id& t : facets_in_the_way_)
-      if (features_.split_subfacet(t.slot, Split_reason::encroached, guard) == Split_outcome::inserted) return true;
-    return false;
+  /// Splits the first obstacle that lets itself be split, but for those that are known not to. An obstacle whose split
+  /// point lies in another leaf takes the tetrahedron along.
+  Split_outcome split_obstacle(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
+                               const Tetrahedron_points& corners, const std::vector<Piece_id>& refused) const {
+    Features& features = w.features_;
+    const Split_guard guard{shortest_allowed(id.cell, ball, corners), corners, 4,
+                            4 * std::sqrt(ball.squared_radius)};
+    const bool segments = !w.segments_in_the_way_.empty();
+    for (const Piece_id& piece : segments ? w.segments_in_the_way_ : w.facets_in_the_way_) {
+      if (std::any_of(refused.begin(), refused.end(), [&](const Piece_id& r) {
+            return r.slot == piece.slot && r.version == piece.version;
+          }))
+        continue;
+      const Split_outcome outcome = segments
+                                        ? features.split_subsegment(piece.slot, Split_reason::encroached, guard)
+                                        : features.split_subfacet(piece.slot, Split_reason::encroached, guard);
+      if (outcome == Split_outcome::inserted) return outcome;
+      if (outcome == Split_outcome::refused) continue;
+      auto errand = std::make_unique<Errand>();
+      errand->piece = features.elsewhere().piece;
+      errand->is_subsegment = features.elsewhere().is_subsegment;
+      errand->guard = guard;
+      errand->client = Errand::Client::tetrahedron;
+      errand->cell = id;
+      errand->home = home;
+      errand->obstacle = piece;
+      errand->refused = refused;
+      features.outgoing().emplace_back(features.elsewhere().at, std::move(errand));
+      return outcome;
+    }
+    return Split_outcome::refused;
   }
 
-  void take_fresh_cells(Worklist& worklist) {
-    for (const Cell_id& id : features_.fresh_cells())
-      if (id.is_live()) classify(id.cell, worklist);
-    features_.fresh_cells().clear();
+  void take_fresh_cells(Worker& w, Worklist& list) {
+    for (const Cell_id& id : w.features_.fresh_cells())
+      if (id.is_live()) classify(w, id.cell, list);
+    w.features_.fresh_cells().clear();
   }
 
-  void mend_subdomains() {
-    if (features_.unlabelled_cells().empty()) return;
-    Subdomain_labeler_3<Tr>(tr_, features_.complex()).mend(features_.unlabelled_cells());
-    features_.note_mended();
+  void mend_subdomains(Features& features) const {
+    if (features.unlabelled_cells().empty()) return;
+    Subdomain_labeler_3<Tr>(tr_, complex_).mend(features.unlabelled_cells());
+    features.note_mended();
   }
 
   /// Gives a flat tetrahedron to the outside if that is what lies beyond its facet; else a point on the facet has to
   /// remove it.
-  bool is_handed_over(Cell_handle c) {
-    Complex& complex = features_.complex();
+  bool is_handed_over(Worker& w, Cell_handle c) const {
     std::vector<Cell_handle> flat{c};
     while (!flat.empty()) {
       const Cell_handle d = flat.back();
       flat.pop_back();
-      const std::uint32_t t = subfacet_of_flat_cell(complex, d);
+      const std::uint32_t t = subfacet_of_flat_cell(complex_, d);
       if (t == Complex::none) continue;
-      if (!hand_to_outside(complex, d)) {
-        features_.request_subfacet(t, Split_reason::flat, 0);
+      if (!hand_to_outside(complex_, d)) {
+        w.features_.request_subfacet(t, Split_reason::flat, 0);
         continue;
       }
       for (int i = 0; i < 4; ++i)
@@ -258,12 +612,13 @@ class Delaunay_leaf_refiner_3 {
   }
 
   Tr& tr_;
-  Features& features_;
+  Complex& complex_;
+  const Acute_neighborhood_3& acute_;
   const Criteria& criteria_;
-  std::function<bool()> should_stop_;
-  Leaf_region hull_;
-  std::vector<Piece_id> segments_in_the_way_;
-  std::vector<Piece_id> facets_in_the_way_;
+  double min_edge_length_;
+  Region_3 hull_;
+  Vertex_handle corner_;
+  bool collect_coarse_ = false;
 };
 
 }  // namespace pgdr

@@ -208,7 +208,7 @@ class Indexed_mesh_builder_3 {
   void gather_edges(const Mesh& mesh) {
     for (std::uint32_t i = 0; i < mesh.complex().subsegment_slots(); ++i) {
       const auto& s = mesh.complex().subsegment(i);
-      if (!s.alive || !s.present) continue;
+      if (!s.alive() || !s.present) continue;
       const std::uint32_t a = s.vertices[0]->number(), b = s.vertices[1]->number();
       if (a == Tr::Vertex::none || b == Tr::Vertex::none) continue;
       edges_.push_back({{std::min(a, b), std::max(a, b)}, mesh.domain().segments[s.segment].marker});

@@ -2,46 +2,75 @@
 #ifndef PGDR_REFINEMENT_LEAF_REFINER_H
 #define PGDR_REFINEMENT_LEAF_REFINER_H
 
+#include <atomic>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
-#include <pgdr/domain/vec_3.h>
+#include <pgdr/domain/region_3.h>
 
 namespace pgdr {
 
-/// A half-open box; the default is all of space.
-struct Leaf_region {
-  Vec_3 lower{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-              -std::numeric_limits<double>::infinity()};
-  Vec_3 upper{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-              std::numeric_limits<double>::infinity()};
-
-  bool contains(const Vec_3& p) const {
-    return lower.x <= p.x && p.x < upper.x && lower.y <= p.y && p.y < upper.y && lower.z <= p.z && p.z < upper.z;
-  }
+/// What one task on one leaf may do.
+struct Leaf_task {
+  Region_3 region;  ///< where it may insert points: the leaf
+  Region_3 near;    ///< the leaf grown by a quarter of ell*, where the vertices of every cavity are
+  Region_3 reach;   ///< the leaf grown by half of ell*, which it must not leave by reading or writing
+  double target = 0;  ///< poor elements with a smaller circumradius are left for a smaller leaf
+  /// Elements outside the domain are refined down to this, for the sake of the leaves beside them.
+  double outside_target = std::numeric_limits<double>::infinity();
+  std::size_t quota = std::numeric_limits<std::size_t>::max();  ///< it inserts about this many points at most
+  bool features_only = false;  ///< elements in the volume have to wait: a facet near by is torn
+  std::uint16_t tag = 0;       ///< checked runs: names the task among the running ones; 0: no checks
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// What one `drain` did.
 struct Drain_result {
-  std::size_t inserted = 0;   ///< points, on features and in the volume
-  std::size_t refused = 0;    ///< poor elements that were given up
-  std::size_t forwarded = 0;  ///< poor elements whose Steiner point lies outside the region
-  bool stopped = false;       ///< asked to stop before the worklist was empty
+  std::size_t inserted = 0;  ///< points, on features and in the volume
+  std::size_t refused = 0;   ///< poor elements that were given up
+  bool stopped = false;      ///< by quota or cancellation, before the worklist was empty
 };
 
-/// A sequential engine that a scheduler can run leaf by leaf.
+/// What the deferred elements of a worklist ask for, roughly.
+struct Work_estimate {
+  double insertions = 0;  ///< points
+  double smallest_size = std::numeric_limits<double>::infinity();  ///< value of the sizing field among them
+};
+
+/// A sequential engine that a scheduler can run leaf by leaf, several leaves at once where they are far apart.
 ///
-/// `drain(region, worklist)` refines poor elements until none is left whose Steiner point lies in the region. It
-/// takes elements from the front of `worklist` and appends those that it makes; elements that belong elsewhere are
-/// moved to `worklist.forwarded`. What it does is a function of the mesh near the region and of the worklist only:
-/// no clock, no addresses, no thread. The scheduler sees nothing else of an engine, in particular no tetrahedron.
+/// - `Worklist`: what one leaf still has to do. *Active* elements are above the leaf's target, *deferred* ones below.
+///   `coarsest()` bounds the radius m of every element near the leaf that it does not intend to refine; it never shrinks.
+/// - `Worker`: the scratch memory of one thread.
+/// - `Parcel`: work on its way to the leaf that contains `at`.
+///
+/// `drain` works on active elements until none is left whose Steiner point lies in the task's region, and appends to
+/// `outgoing()` what belongs to other leaves. What it does is a function of the mesh within `reach` and of the
+/// worklist only: no clock, no addresses, no thread. `receive` puts a parcel into a worklist, `activate` applies a new
+/// target, `dispatch` empties a worklist, parcel by parcel, into a sink. `settle` does, alone, what no leaf could do:
+/// it takes it from all worklists that are torn.
+/// `is_finer` tells whether all elements that meet a box, but not those inside a hole in it, have m below a bound.
 template <class R>
-concept LeafRefiner = requires(R refiner, const Leaf_region& region, typename R::Worklist& worklist) {
-  { worklist.empty() } -> std::convertible_to<bool>;
-  { worklist.size() } -> std::convertible_to<std::size_t>;
-  { worklist.forwarded.size() } -> std::convertible_to<std::size_t>;
-  { refiner.drain(region, worklist) } -> std::same_as<Drain_result>;
+concept LeafRefiner = requires(R refiner, typename R::Worker& worker, typename R::Worklist& list,
+                               const typename R::Worklist& const_list, typename R::Parcel parcel,
+                               const Leaf_task& task, const Region_3& box, double number) {
+  { const_list.has_work() } -> std::convertible_to<bool>;
+  { const_list.active() } -> std::convertible_to<std::size_t>;
+  { const_list.deferred() } -> std::convertible_to<std::size_t>;
+  { const_list.is_torn() } -> std::convertible_to<bool>;
+  { const_list.coarsest() } -> std::convertible_to<double>;
+  { list.measure_deferred() };
+  { const_list.measured_deferred() } -> std::convertible_to<double>;
+  { parcel.at } -> std::convertible_to<Vec_3>;
+  { list.outgoing().size() } -> std::convertible_to<std::size_t>;
+  { refiner.drain(worker, task, list) } -> std::same_as<Drain_result>;
+  { refiner.receive(list, std::move(parcel), number, number) };
+  { refiner.activate(list, number, number) };
+  { refiner.estimate(const_list) } -> std::same_as<Work_estimate>;
+  { refiner.is_finer(box, box, number, const_list) } -> std::convertible_to<bool>;
 };
 
 }  // namespace pgdr

@@ -35,9 +35,12 @@ class Quality_criteria_3 {
   bool is_over_size(const Tetrahedron_ball& b, std::int32_t subdomain) const {
     const double max_volume = subdomains_[static_cast<std::size_t>(subdomain)].max_volume;
     if (max_volume > 0 && b.volume > max_volume) return true;
-    const double r = sizing_(typename K::Point_3(b.center.x, b.center.y, b.center.z));
+    const double r = size_at(b.center);
     return b.squared_radius > r * r;
   }
+
+  /// The sizing field, without the bounds on volume.
+  double size_at(const Vec_3& p) const { return sizing_(typename K::Point_3(p.x, p.y, p.z)); }
 
   const std::vector<Subdomain>& subdomains() const { return subdomains_; }
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/report/schedule_statistics.h>
+
 namespace pgdr {
 
 /// Why the refinement ended.
@@ -25,6 +27,7 @@ struct Run_statistics {
   std::size_t steiner_points = 0;
   std::size_t unrecovered = 0;         ///< subsegments and subfacets that the mesh lacks (0 unless stopped)
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
+  Schedule_statistics schedule;
 };
 
 }  // namespace pgdr

@@ -26,6 +26,7 @@ struct Run_summary {
   std::size_t steiner_points = 0;
   std::size_t unrecovered = 0;
   unsigned threads = 1;
+  Schedule_statistics schedule;
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
   double total_seconds = 0;
   std::size_t peak_memory_bytes = 0;

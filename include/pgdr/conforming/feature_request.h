@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_FEATURE_REQUEST_H
+#define PGDR_CONFORMING_FEATURE_REQUEST_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/fifo.h>
+#include <pgdr/domain/vec_3.h>
+
+namespace pgdr {
+
+/// Why a subsegment or subfacet is to be split.
+enum class Split_reason : std::uint8_t {
+  missing,     ///< the 3D triangulation lacks it: conformity demands the split
+  encroached,  ///< a vertex lies in its diametral or equatorial ball, or a tetrahedron's Steiner point would
+  flat         ///< a tetrahedron has all four vertices on its facet
+};
+
+/// What became of a split.
+enum class Split_outcome : std::uint8_t {
+  inserted,  ///< a point was inserted, here or on the subsegment that was in the way
+  refused,   ///< nothing was inserted: the edges would become too short
+  elsewhere  ///< nothing was inserted: the point lies in another leaf
+};
+
+/// The shortest edge that a split may make next to small input angles. Away from these there is no such limit, since
+/// the theory promises one; next to them it is what keeps the refinement from going on for ever.
+struct Split_guard {
+  double floor = 0;                 ///< no new edge below this
+  std::array<Vec_3, 4> where{};     ///< "next to" is: one of these points
+  std::size_t count = 0;            ///< how many of them; 0: the split point itself
+  double reach = 0;                 ///< within this distance of a small angle; for `count` 0, 4 radii of the piece
+};
+
+/// A piece that waits to be split.
+struct Feature_request {
+  Piece_id piece;
+  Split_reason reason;
+  double floor = 0;
+};
+
+/// The pieces of one leaf that wait to be split, subsegments before subfacets.
+struct Feature_queues {
+  Fifo<Feature_request> subsegments;
+  Fifo<Feature_request> subfacets;
+
+  bool empty() const { return subsegments.empty() && subfacets.empty(); }
+  std::size_t size() const { return subsegments.size() + subfacets.size(); }
+};
+
+/// A tetrahedron as it was when it was noted.
+template <class Cell_handle>
+struct Cell_id_3 {
+  Cell_handle cell;
+  unsigned int generation = 0;
+  float radius = 0;  ///< of the circumball, rounded up; 0: not measured
+  bool is_live() const { return cell->generation() == generation; }
+};
+
+/// A split on its way to the leaf that holds the split point, on behalf of a client in the leaf that it comes from.
+template <class Cell_handle>
+struct Feature_errand_3 {
+  Piece_id piece;
+  bool is_subsegment = false;
+  Split_reason reason = Split_reason::encroached;
+  Split_guard guard;
+
+  enum class Client : std::uint8_t {
+    none,
+    subfacet,    ///< `request` is queued again when a point was inserted
+    tetrahedron  ///< `cell` goes back `home`, with `obstacle` among `refused` if nothing was inserted
+  };
+  Client client = Client::none;
+  Feature_request request{};
+  Cell_id_3<Cell_handle> cell;
+  Vec_3 home;
+  Piece_id obstacle;
+  std::vector<Piece_id> refused;
+};
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_REFINEMENT_LEAF_WORKLIST_3_H
+#define PGDR_REFINEMENT_LEAF_WORKLIST_3_H
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <pgdr/conforming/feature_request.h>
+#include <pgdr/conforming/fifo.h>
+#include <pgdr/domain/vec_3.h>
+
+namespace pgdr {
+
+/// Work on its way to the leaf that contains `at`.
+template <class Tr>
+struct Leaf_parcel_3 {
+  using Cell_handle = typename Tr::Cell_handle;
+
+  enum class Kind : std::uint8_t {
+    poor,    ///< `cell`, with its Steiner point at `at`
+    errand,  ///< a feature with its split point at `at`
+    retry,   ///< a tetrahedron that comes home from an errand
+    coarse   ///< no work: an element of radius `cell.radius` that nobody intends to refine
+  };
+  Vec_3 at;
+  Kind kind = Kind::poor;
+  Cell_id_3<Cell_handle> cell{};
+  std::unique_ptr<Feature_errand_3<Cell_handle>> errand;
+};
+
+/// What one leaf still has to do.
+template <class Tr>
+class Leaf_worklist_3 {
+ public:
+  using Cell_handle = typename Tr::Cell_handle;
+  using Vertex_handle = typename Tr::Vertex_handle;
+  using Cell_id = Cell_id_3<Cell_handle>;
+  using Errand = Feature_errand_3<Cell_handle>;
+  using Parcel = Leaf_parcel_3<Tr>;
+
+  bool has_work() const {
+    return !active_.empty() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
+  }
+  bool empty() const { return !has_work() && deferred_.empty(); }
+  std::size_t active() const { return active_.size() + retries_.size() + errands_.size() + queues_.size(); }
+  std::size_t deferred() const { return deferred_.size(); }
+  std::size_t size() const { return active() + deferred(); }
+
+  /// A facet near by is torn, and only a run of `settle` can mend it.
+  bool is_torn() const { return torn_; }
+
+  /// Upper bound of m, over all elements near the leaf that are not waiting to be refined. Never shrinks.
+  double coarsest() const { return coarsest_; }
+  void note_coarse(double radius) { coarsest_ = std::max(coarsest_, radius); }
+  /// The largest radius that is deferred, as of the last `measure_deferred`.
+  double measured_deferred() const { return largest_deferred_; }
+  void measure_deferred() {
+    float r = 0;
+    for (const Cell_id& id : deferred_) r = std::max(r, id.radius);
+    for (const Cell_id& id : outside_) r = std::max(r, id.radius);
+    largest_deferred_ = static_cast<double>(r);
+  }
+
+  std::vector<Parcel>& outgoing() { return outgoing_; }
+
+  /// A vertex in or near the leaf, to start a walk from.
+  Vertex_handle anchor() const { return anchor_; }
+  void set_anchor(Vertex_handle v) { anchor_ = v; }
+
+  void add_poor(const Cell_id& id, double target) {
+    if (static_cast<double>(id.radius) > target)
+      active_.push(id);
+    else
+      deferred_.push_back(id);
+  }
+
+  /// What a child of this leaf starts from.
+  void inherit(const Leaf_worklist_3& parent) {
+    coarsest_ = parent.coarsest_;
+    anchor_ = parent.anchor_;
+  }
+
+  void release_memory() {
+    active_.release_if_empty();
+    errands_.release_if_empty();
+    retries_.release_if_empty();
+    queues_.subsegments.release_if_empty();
+    queues_.subfacets.release_if_empty();
+    if (outgoing_.empty()) std::vector<Parcel>().swap(outgoing_);
+  }
+
+ private:
+  template <class, class>
+  friend class Delaunay_leaf_refiner_3;
+
+  Fifo<Cell_id> active_;
+  std::vector<Cell_id> deferred_;
+  std::vector<Cell_id> outside_;  ///< deferred tetrahedra outside the domain
+  Fifo<std::unique_ptr<Errand>> errands_;
+  Fifo<std::unique_ptr<Errand>> retries_;  ///< their clients are looked at again
+  Feature_queues queues_;
+  Feature_queues stranded_;
+  std::vector<Cell_id> fresh_;
+  std::vector<Cell_id> unlabelled_;
+  std::vector<Parcel> outgoing_;
+  Vertex_handle anchor_;
+  double coarsest_ = 0;
+  double largest_deferred_ = 0;
+  bool torn_ = false;
+};
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SCHEDULE_SPLIT_DECISION_H
+#define PGDR_SCHEDULE_SPLIT_DECISION_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include <pgdr/independence/zone_condition.h>
+#include <pgdr/schedule/leaf_table.h>
+
+namespace pgdr {
+
+/// Circumradius to which a leaf is refined so that its own split is possible: its children are half as long, and the
+/// zone condition allows them an eighth of that.
+inline double zone_target(double shortest) { return shortest / 16 * (1 - 1e-5); }
+
+/// Decides which leaves to split: those with enough left to do, as far as afterwards the octree is balanced and the
+/// zone condition holds for every leaf, the new ones and those beside them.
+template <class Engine>
+class Split_decision {
+ public:
+  using Leaf = Scheduled_leaf<Engine>;
+
+  /// Below this number of expected insertions a leaf is not worth splitting; the first of all leaves is worth it
+  /// later, since from then on the outside has to be refined as well.
+  static constexpr double least_work = 1000, least_work_of_all = 10000;
+
+  Split_decision(const Engine& engine, const Linear_octree_3& octree, std::vector<Leaf>& leaves)
+      : engine_(engine), octree_(octree), leaves_(leaves), split_(octree.size(), 0), next_(octree) {}
+
+  /// True if the octree changes: see `split`, `next` and `parents`. Leaves that will not be split become final; where
+  /// only deferred elements are in the way, the leaves around are asked to refine these first.
+  bool decide() {
+    nominate();
+    while (true) {
+      close_under_balance();
+      if (std::none_of(split_.begin(), split_.end(), [](std::uint8_t s) { return s; })) break;
+      next_ = octree_.split(split_, &parents_);
+      if (check()) return true;
+    }
+    next_ = octree_;
+    parents_.clear();
+    // Nothing can be split, and nobody was asked to make room: from here on every leaf finishes what it has.
+    if (!progress_)
+      for (Leaf& leaf : leaves_) leaf.final = leaf.final || leaf.work.deferred() > 0;
+    return false;
+  }
+
+  const std::vector<std::uint8_t>& split() const { return split_; }
+  const Linear_octree_3& next() const { return next_; }
+  const std::vector<std::uint32_t>& parents() const { return parents_; }
+
+ private:
+  enum class Verdict : std::uint8_t { untouched, good, pending, coarse };
+
+  void nominate() {
+    std::vector<std::uint8_t> ended(octree_.size(), 0);
+    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+      Leaf& leaf = leaves_[i];
+      leaf.work.measure_deferred();
+      if (leaf.final || leaf.work.deferred() == 0) return;
+      const Work_estimate e = engine_.estimate(leaf.work);
+      const bool small_enough =
+          e.smallest_size >= zone_target(leaf.shortest) && e.smallest_size <= leaf.edge;
+      if (e.insertions < (octree_.size() == 1 ? least_work_of_all : least_work) || small_enough || octree_[i].level + 1 >= Octree_key::max_level) {
+        leaf.final = true;
+        ended[i] = 1;
+      } else {
+        split_[i] = 1;
+      }
+    });
+    progress_ = std::any_of(ended.begin(), ended.end(), [](std::uint8_t e) { return e; });
+    for (std::uint32_t i = 0; i < octree_.size(); ++i)
+      if (leaves_[i].work.coarsest() >= 0.25 * leaves_[i].shortest) far_reaching_.push_back(i);
+  }
+
+  /// Larger leaves beside a candidate have to be split with it; where one is vetoed, so is the candidate.
+  void close_under_balance() {
+    if (vetoed_.empty()) vetoed_.resize(octree_.size(), 0);
+    bool changed = true;
+    while (changed) {
+      changed = false;
+      for (std::uint32_t i = 0; i < octree_.size(); ++i) {
+        if (!split_[i]) continue;
+        for (const std::uint32_t n : leaves_[i].touching) {
+          if (octree_[n].level >= octree_[i].level || split_[n]) continue;
+          changed = true;
+          if (vetoed_[n]) {
+            veto(i, false);
+            break;
+          }
+          split_[n] = 1;
+        }
+      }
+    }
+  }
+
+  void veto(std::uint32_t i, bool for_good) {
+    split_[i] = 0;
+    vetoed_[i] = 1;
+    if (for_good && leaves_[i].work.deferred() > 0 && !leaves_[i].final) {
+      leaves_[i].final = true;
+      progress_ = true;
+    }
+  }
+
+  /// Evaluates the zone condition where the octree changes. False if something was vetoed.
+  bool check() {
+    std::vector<Verdict> verdicts(next_.size(), Verdict::untouched);
+    tbb::parallel_for(std::uint32_t{0}, next_.size(), [&](std::uint32_t j) { verdicts[j] = judge(j); });
+    bool good = true;
+    for (std::uint32_t j = 0; j < next_.size(); ++j) {
+      if (verdicts[j] == Verdict::untouched || verdicts[j] == Verdict::good) continue;
+      good = false;
+      const bool for_good = verdicts[j] == Verdict::coarse;
+      if (!for_good) make_room(j);
+      const std::uint32_t p = parents_[j];
+      if (split_[p] || vetoed_[p]) {
+        veto(p, for_good);
+        continue;
+      }
+      for (const std::uint32_t n : leaves_[p].touching)
+        if (split_[n] && next_edge(n) < leaves_[p].shortest) veto(n, for_good);
+    }
+    return good;
+  }
+
+  double next_edge(std::uint32_t old) const { return leaves_[old].edge / (split_[old] ? 2 : 1); }
+
+  Verdict judge(std::uint32_t j) const {
+    const std::uint32_t p = parents_[j];
+    if (!split_[p] && next_.shortest_touching_edge(j) == leaves_[p].shortest) return Verdict::untouched;
+    std::vector<Requirement> requirements;
+    Zone_condition().requirements(next_, j, requirements);
+    const Requirement& r = requirements.front();
+    std::vector<std::uint32_t> around;
+    next_.touching(j, around);
+    around.push_back(j);
+    double pending = 0, coarse = 0;
+    for (const std::uint32_t n : around) {
+      pending = std::max(pending, leaves_[parents_[n]].work.measured_deferred());
+      coarse = std::max(coarse, leaves_[parents_[n]].work.coarsest());
+    }
+    if (pending >= r.bound) return Verdict::pending;
+    Region_3 box, hole;
+    for (int k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::size_t>(k);
+      box.lower[k] = r.lower[a];
+      box.upper[k] = r.upper[a];
+      hole.lower[k] = r.hole_lower[a];
+      hole.upper[k] = r.hole_upper[a];
+    }
+    const bool reached = std::any_of(far_reaching_.begin(), far_reaching_.end(), [&](std::uint32_t i) {
+      const Region_3 leaf = grown(leaf_region(octree_, i), 2 * leaves_[i].work.coarsest());
+      for (int k = 0; k < 3; ++k)
+        if (leaf.upper[k] < box.lower[k] || box.upper[k] < leaf.lower[k]) return false;
+      return true;
+    });
+    if (coarse < r.bound && !reached) return Verdict::good;
+    return engine_.is_finer(box, hole, r.bound, leaves_[p].work) ? Verdict::good : Verdict::coarse;
+  }
+
+  /// Asks the leaves around a new one to refine what only waits there.
+  void make_room(std::uint32_t j) {
+    const double bound = zone_target(2 * next_.shortest_touching_edge(j));
+    std::vector<std::uint32_t> around;
+    next_.touching(j, around);
+    around.push_back(j);
+    for (const std::uint32_t n : around) {
+      Leaf& leaf = leaves_[parents_[n]];
+      if (leaf.work.measured_deferred() <= bound || leaf.cap <= bound) continue;
+      leaf.cap = bound;
+      progress_ = true;
+    }
+  }
+
+  const Engine& engine_;
+  const Linear_octree_3& octree_;
+  std::vector<Leaf>& leaves_;
+  std::vector<std::uint8_t> split_;
+  std::vector<std::uint8_t> vetoed_;
+  std::vector<std::uint32_t> far_reaching_;
+  Linear_octree_3 next_;
+  std::vector<std::uint32_t> parents_;
+  bool progress_ = false;
+};
+
+}  // namespace pgdr
+
+#endif

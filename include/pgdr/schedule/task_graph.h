@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SCHEDULE_TASK_GRAPH_H
+#define PGDR_SCHEDULE_TASK_GRAPH_H
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include <tbb/flow_graph.h>
+#include <tbb/parallel_for.h>
+
+namespace pgdr {
+
+/// Runs `body(k)` for k = 0 ... n-1 as the nodes of a `tbb::flow::graph`: a task starts when all that precede it have
+/// ended. `successors(k, out)` fills in those that k precedes; it is called from several threads and must describe
+/// an acyclic graph. Rethrows what a task throws, after the others have ended. Returns how many tasks precede no one
+/// else's end: those that are ready at once.
+template <class Successors, class Body>
+std::size_t run_task_graph(std::size_t n, const Successors& successors, const Body& body) {
+  using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
+  tbb::flow::graph graph;
+  std::deque<Node> nodes;
+  for (std::size_t k = 0; k < n; ++k)
+    nodes.emplace_back(graph, [&body, k](const tbb::flow::continue_msg&) { body(k); });
+  std::vector<std::uint8_t> waits(n, 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 64), [&](const auto& range) {
+    std::vector<std::uint32_t> out;
+    for (std::size_t k = range.begin(); k != range.end(); ++k) {
+      successors(k, out);
+      for (const std::uint32_t s : out) {
+        tbb::flow::make_edge(nodes[k], nodes[s]);
+        std::atomic_ref<std::uint8_t>(waits[s]).store(1, std::memory_order_relaxed);
+      }
+    }
+  });
+  std::size_t ready = 0;
+  for (std::size_t k = 0; k < n; ++k)
+    if (!waits[k]) {
+      ++ready;
+      nodes[k].try_put(tbb::flow::continue_msg());
+    }
+  graph.wait_for_all();
+  return ready;
+}
+
+}  // namespace pgdr
+
+#endif
