@@ -13,12 +13,12 @@ namespace pgdr {
 /// The buffer condition of the paper: A. Chernikov, N. Chrisochoides, *Three-dimensional Delaunay refinement for
 /// multi-core processors*, ICS 2008, definition 4, inequality (18).
 ///
-/// **Condition (18).** Every tetrahedron whose open circumball meets a leaf L' in BUF(L) has a circumradius below l(L')/6,
-/// l(L') the edge of L'.
+/// **Condition (18).** Every tetrahedron whose open circumball meets a leaf L' in BUF(L) has a circumradius below
+/// l(L')/6, l(L') the edge of L'.
 /// **Theorem 3.** Then points of L and of any other leaf outside BUF(L) are strongly Delaunay-independent: they, or the
 /// circumcenters and midpoints that are inserted for them, may be inserted concurrently into the mesh as it is now.
-/// *Why (a sketch in the paper):* the straight way from one leaf to the other crosses buffer leaves on a piece of length w
-/// on which all circumradii are below w/6; theorem 2 needs w/2, the rest pays for the displacements.
+/// *Why (a sketch in the paper):* the straight way from one leaf to the other crosses buffer leaves on a piece of
+/// length w on which all circumradii are below w/6; theorem 2 needs w/2, the rest pays for the displacements.
 ///
 /// It says nothing about two threads that write to one triangulation, and it can be lost while neighbours refine
 /// (docs/theory.md). A schedule that runs by it asks for `Zone_condition` as well.
