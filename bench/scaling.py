@@ -93,8 +93,9 @@ def report(case, runs):
                 [[phase, *(f"{seconds(n, phase):.3f}" for n in runs)] for phase in phases]))
     if first == 1 and 2 in runs:
         ratio = seconds(1, "refinement") / seconds(2, "refinement")
-        print(f"\nRefinement on 2 threads: {ratio:.2f} x as fast as on 1; wanted {target}: "
-              f"{'reached' if ratio >= target else 'missed'}.")
+        # Two threads cannot be much more than twice as fast: then something else slowed the runs on one.
+        verdict = "disturbed, run it again" if ratio > 2.1 else "reached" if ratio >= target else "missed"
+        print(f"\nRefinement on 2 threads: {ratio:.2f} x as fast as on 1; wanted {target}: {verdict}.")
     checksums = {stats["mesh_checksum"] for n in runs for stats in runs[n]}
     print(f"\nAll {sum(map(len, runs.values()))} meshes are the same." if len(checksums) == 1
           else f"\n**The meshes differ**: {len(checksums)} checksums.")
