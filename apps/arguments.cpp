@@ -70,6 +70,13 @@ std::size_t parse_count(const std::string& option, const std::string& text) {
   return value;
 }
 
+unsigned parse_threads(const std::string& option, const std::string& text) {
+  unsigned value = 0;
+  if (!read_all(text, value) || value > 1024)
+    throw Usage_error(option + " must be a whole number from 1 to 1024, or 0 for one thread per core, not " + text);
+  return value;
+}
+
 Sizing_box parse_sizing_box(const std::string& text) {
   const auto fail = [&text](const std::string& why) -> Usage_error {
     return Usage_error("--refine-box: '" + text + "' " + why);

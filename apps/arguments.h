@@ -32,6 +32,9 @@ double parse_ratio_bound(const std::string& option, const std::string& text);
 /// A whole number, at least 1.
 std::size_t parse_count(const std::string& option, const std::string& text);
 
+/// A number of threads: a whole number from 0, for all that the machine has, to 1024.
+unsigned parse_threads(const std::string& option, const std::string& text);
+
 /// The value of `--refine-box`: "x0,y0,z0,x1,y1,z1:R" with x0 < x1, y0 < y1, z0 < z1 and R > 0.
 Sizing_box parse_sizing_box(const std::string& text);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <pgdr/io/medit.h>
+#include <pgdr/parallel/thread_arena.h>
 #include <pgdr/quality/check_mesh.h>
 
 #include "arguments.h"
@@ -23,6 +24,7 @@ struct Check_arguments {
   std::string mesh;
   std::string plc;
   std::string radius_edge_ratio;
+  std::string threads;
   Domain_options domain;
 };
 
@@ -68,8 +70,15 @@ Command add_check_command(CLI::App& program) {
       ->add_option("--radius-edge-ratio", arguments->radius_edge_ratio,
                    "Bound of circumradius over shortest edge to verify (default 2)")
       ->type_name("B");
+  parser
+      ->add_option("--threads", arguments->threads,
+                   "Number of threads (default and 0: one per core); the result is the same for all")
+      ->type_name("N");
   arguments->domain.add_to(*parser);
-  return {parser, [arguments] { return run_check(*arguments); }};
+  return {parser, [arguments] {
+            const unsigned threads = arguments->threads.empty() ? 0 : parse_threads("--threads", arguments->threads);
+            return with_threads(threads, [&] { return run_check(*arguments); });
+          }};
 }
 
 }  // namespace pgdr::app

@@ -11,6 +11,7 @@
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/write_mesh.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
+#include <pgdr/parallel/thread_arena.h>
 #include <pgdr/parameters.h>
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/refine_mesh_3.h>
@@ -86,7 +87,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
   parser
       .add_option("--max-vertices", arguments.max_vertices, "Stop at this many vertices (default: no limit)")
       ->type_name("N");
-  parser.add_option("--threads", arguments.threads, "Number of threads (default: all); the mesh is the same for every number")
+  parser.add_option("--threads", arguments.threads, "Number of threads (default and 0: one per core); the mesh is the same for all")
       ->type_name("N");
   parser
       .add_option("--octree-depth", arguments.octree_depth,
@@ -122,7 +123,6 @@ Parameters parameters(const Mesh_arguments& arguments) {
   if (!arguments.min_edge_length.empty())
     p.min_edge_length = parse_positive("--min-edge-length", arguments.min_edge_length);
   if (!arguments.max_vertices.empty()) p.max_vertices = parse_count("--max-vertices", arguments.max_vertices);
-  if (!arguments.threads.empty()) p.threads = static_cast<unsigned>(parse_count("--threads", arguments.threads));
   if (!arguments.octree_depth.empty())
     p.octree_depth = static_cast<int>(std::min<std::size_t>(parse_count("--octree-depth", arguments.octree_depth), 12));
   p.check_zones = p.check_zones || arguments.check_zones;
@@ -162,6 +162,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   timer.end_phase("validation");
 
   Run_summary run;
+  run.threads = thread_count();
   Indexed_mesh_3 mesh;
   const Interrupt_guard interrupt;
   p.cancel = &interrupt.flag();
@@ -174,7 +175,6 @@ int run_mesh(const Mesh_arguments& arguments) {
     run.steiner_points = statistics.steiner_points;
     run.unrecovered = statistics.unrecovered;
     run.schedule = statistics.schedule;
-    run.threads = statistics.schedule.threads;
     timer.end_phases(statistics.seconds);
     progress.show("numbering");
     mesh = indexed_mesh_3(std::move(refined));
@@ -209,7 +209,10 @@ Command add_mesh_command(CLI::App& program) {
   const auto arguments = std::make_shared<Mesh_arguments>();
   CLI::App* parser = program.add_subcommand("mesh", "Mesh a piecewise linear complex");
   add_options(*parser, *arguments);
-  return {parser, [arguments] { return run_mesh(*arguments); }};
+  return {parser, [arguments] {
+            const unsigned threads = arguments->threads.empty() ? 0 : parse_threads("--threads", arguments->threads);
+            return with_threads(threads, [&] { return run_mesh(*arguments); });
+          }};
 }
 
 }  // namespace pgdr::app

@@ -13,13 +13,13 @@
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/parallel/thread_arena.h>
 #include <pgdr/parameters.h>
 #include <pgdr/refinement/delaunay_leaf_refiner_3.h>
 #include <pgdr/refinement/indexed_mesh_of_3.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/refined_mesh_3.h>
 #include <pgdr/schedule/epoch_scheduler.h>
-#include <pgdr/schedule/in_arena.h>
 #include <pgdr/sizing/box_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
@@ -75,7 +75,7 @@ class Mesher_3 {
   void refine(const Sizing& sizing) {
     const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains());
     Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_);
-    in_arena(parameters_.threads, [&] {
+    with_threads(parameters_.threads, [&] {
       Epoch_scheduler<Engine> scheduler(engine, parameters_, mesh_.triangulation().number_of_vertices());
       if (!scheduler.run())
         reason_ = parameters_.cancel && parameters_.cancel->load() ? Stop_reason::cancelled : Stop_reason::vertex_budget;

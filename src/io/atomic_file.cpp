@@ -79,15 +79,15 @@ Atomic_file::Atomic_file(const std::filesystem::path& target)
 Atomic_file::~Atomic_file() { discard(); }
 
 void Atomic_file::write(const void* bytes, std::size_t size) {
-  const char* next = static_cast<const char*>(bytes);
-  while (size > 0) {
-    if (buffered_ == buffer_.size()) flush();
-    const std::size_t part = std::min(size, buffer_.size() - buffered_);
-    std::memcpy(buffer_.data() + buffered_, next, part);
-    buffered_ += part;
-    next += part;
-    size -= part;
+  // What is large goes past the buffer.
+  if (size > buffer_.size() - buffered_) flush();
+  if (size >= buffer_.size() / 8) {
+    flush();
+    put(static_cast<const char*>(bytes), size);
+    return;
   }
+  std::memcpy(buffer_.data() + buffered_, bytes, size);
+  buffered_ += size;
 }
 
 void Atomic_file::overwrite(std::uint64_t position, const void* bytes, std::size_t size) {
@@ -111,14 +111,15 @@ void Atomic_file::commit() {
   temporary_.clear();
 }
 
-void Atomic_file::flush() {
-  const char* next = buffer_.data();
-  while (buffered_ > 0) {
-    const ssize_t written = ::write(descriptor_, next, buffered_);
+void Atomic_file::flush() { put(buffer_.data(), std::exchange(buffered_, 0)); }
+
+void Atomic_file::put(const char* next, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(descriptor_, next, size);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) fail(written < 0 ? errno : EIO);
     next += written;
-    buffered_ -= static_cast<std::size_t>(written);
+    size -= static_cast<std::size_t>(written);
     flushed_ += static_cast<std::uint64_t>(written);
   }
 }

@@ -9,6 +9,8 @@
 
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/medit.h>
+#include <pgdr/parallel/parallel_for.h>
+#include <pgdr/parallel/parallel_in_order.h>
 
 #include "numbers.h"
 
@@ -47,15 +49,23 @@ char* format_elements(const std::vector<std::array<std::uint32_t, N>>& elements,
   return out;
 }
 
-/// Writes a section; `format(first, last, out)` turns a range of its rows into text and knows of no other.
+/// Writes a section; `format(first, last, out)` turns a range of its rows into text and knows of no other. Blocks are
+/// formatted at once on all threads and written in order.
 template <class Format>
 void write_section(Atomic_file& out, const char* keyword, std::size_t count, const Format& format) {
   out.write("\n" + std::string(keyword) + "\n" + std::to_string(count) + "\n");
-  const std::unique_ptr<char[]> block(new char[rows_per_block * max_row_length]);
-  for (std::size_t first = 0; first < count; first += rows_per_block) {
-    const char* const end = format(first, std::min(first + rows_per_block, count), block.get());
-    out.write(block.get(), static_cast<std::size_t>(end - block.get()));
-  }
+  struct Block {
+    std::unique_ptr<char[]> text;
+    std::size_t size = 0;
+  };
+  parallel_in_order<Block>(
+      chunk_count(count, rows_per_block),
+      [&](std::size_t i, Block& block) {
+        if (!block.text) block.text = std::make_unique_for_overwrite<char[]>(rows_per_block * max_row_length);
+        const std::size_t first = i * rows_per_block, last = std::min(first + rows_per_block, count);
+        block.size = static_cast<std::size_t>(format(first, last, block.text.get()) - block.text.get());
+      },
+      [&](std::size_t, const Block& block) { out.write(block.text.get(), block.size); });
 }
 
 template <std::size_t N>

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <new>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <zlib.h>
@@ -17,6 +17,7 @@
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/output_error.h>
 #include <pgdr/io/vtu.h>
+#include <pgdr/parallel/parallel_in_order.h>
 #include <pgdr/quality/measures.h>
 
 namespace pgdr {
@@ -27,7 +28,7 @@ constexpr std::size_t block_bytes = std::size_t(1) << 16;
 /// One zlib stream, used anew for each block; speed counts for more than the last percent of size.
 class Compressor {
  public:
-  Compressor() {
+  Compressor() : input_(block_bytes) {
     if (deflateInit(&stream_, 1) != Z_OK) throw std::bad_alloc();
     output_.resize(deflateBound(&stream_, block_bytes));
   }
@@ -35,19 +36,26 @@ class Compressor {
   Compressor(const Compressor&) = delete;
   Compressor& operator=(const Compressor&) = delete;
 
-  /// The compressed bytes, valid until the next call.
-  std::pair<const void*, std::size_t> compress(const std::vector<unsigned char>& input, std::size_t size) {
+  /// Where the bytes to compress go, `block_bytes` at most.
+  unsigned char* input() { return input_.data(); }
+
+  /// Compresses the first `size` bytes of the input.
+  void compress(std::size_t size) {
     deflateReset(&stream_);
-    stream_.next_in = const_cast<Bytef*>(input.data());  // zlib only reads it
+    stream_.next_in = input_.data();
     stream_.avail_in = static_cast<uInt>(size);
     stream_.next_out = output_.data();
     stream_.avail_out = static_cast<uInt>(output_.size());
     if (deflate(&stream_, Z_FINISH) != Z_STREAM_END) throw Output_error("zlib failed to compress a block");
-    return {output_.data(), output_.size() - stream_.avail_out};
   }
+
+  /// What the last call has made.
+  const void* output() const { return output_.data(); }
+  std::size_t output_size() const { return output_.size() - stream_.avail_out; }
 
  private:
   z_stream stream_{};
+  std::vector<unsigned char> input_;
   std::vector<Bytef> output_;
 };
 
@@ -61,7 +69,7 @@ struct Data_array {
 
 class Vtu_writer {
  public:
-  Vtu_writer(const Indexed_mesh_3& mesh, Atomic_file& out) : mesh_(mesh), out_(out), block_(block_bytes) {
+  Vtu_writer(const Indexed_mesh_3& mesh, Atomic_file& out) : mesh_(mesh), out_(out) {
     const std::size_t largest = std::max(mesh.points.size(), 4 * mesh.tetrahedra.size());
     wide_ = largest > std::size_t(std::numeric_limits<std::int32_t>::max());
   }
@@ -153,7 +161,8 @@ class Vtu_writer {
     append<Integer>(offsets, count, [](std::size_t i) { return static_cast<Integer>(4 * (i + 1)); });
   }
 
-  /// Appends the rows `row(0)`, ..., `row(count - 1)` block by block, behind the sizes of the blocks.
+  /// Appends the rows `row(0)`, ..., `row(count - 1)` block by block, behind the sizes of the blocks. The blocks are
+  /// filled and compressed at once on all threads.
   template <class Row, class Function>
   void append(const Data_array& array, std::size_t count, const Function& row) {
     const std::size_t rows_per_block = block_bytes / sizeof(Row);
@@ -165,16 +174,21 @@ class Vtu_writer {
     header.resize(3 + blocks);
     const std::uint64_t header_position = out_.position();
     out_.write(header.data(), header.size() * sizeof(std::uint64_t));
-    for (std::size_t b = 0; b < blocks; ++b) {
-      const std::size_t first = b * rows_per_block, last = std::min(first + rows_per_block, count);
-      for (std::size_t i = first; i < last; ++i) {
-        const Row value = row(i);
-        std::memcpy(block_.data() + (i - first) * sizeof(Row), &value, sizeof(Row));
-      }
-      const auto [bytes, size] = compressor_.compress(block_, (last - first) * sizeof(Row));
-      out_.write(bytes, size);
-      header[3 + b] = size;
-    }
+    parallel_in_order<std::unique_ptr<Compressor>>(
+        blocks,
+        [&](std::size_t b, std::unique_ptr<Compressor>& block) {
+          if (!block) block = std::make_unique<Compressor>();
+          const std::size_t first = b * rows_per_block, last = std::min(first + rows_per_block, count);
+          for (std::size_t i = first; i < last; ++i) {
+            const Row value = row(i);
+            std::memcpy(block->input() + (i - first) * sizeof(Row), &value, sizeof(Row));
+          }
+          block->compress((last - first) * sizeof(Row));
+        },
+        [&](std::size_t b, const std::unique_ptr<Compressor>& block) {
+          out_.write(block->output(), block->output_size());
+          header[3 + b] = block->output_size();
+        });
     out_.overwrite(header_position, header.data(), header.size() * sizeof(std::uint64_t));
   }
 
@@ -187,8 +201,6 @@ class Vtu_writer {
 
   const Indexed_mesh_3& mesh_;
   Atomic_file& out_;
-  Compressor compressor_;
-  std::vector<unsigned char> block_;
   std::uint64_t data_begin_ = 0;
   bool wide_ = false;
 };

@@ -18,6 +18,7 @@ OPEN_TO_ALL = {"parameters.h"}
 # For a room: the rooms that it may include besides itself. A room that is not listed may include every
 # room that FORBIDDEN does not name.
 ALLOWED = {
+    "parallel": set(),
     "octree": set(),
     "independence": {"octree"},
 }
@@ -25,14 +26,17 @@ ALLOWED = {
 FORBIDDEN = {
     "schedule": {"mesh", "conforming"},
     "refinement": {"schedule"},
-    "conforming": {"schedule"},
-    "mesh": {"schedule", "refinement", "conforming", "io", "quality", "report"},
+    "conforming": {"schedule", "parallel"},
+    "mesh": {"schedule", "parallel", "refinement", "conforming", "io", "quality", "report"},
     "domain": {"mesh", "refinement", "conforming", "schedule", "io", "quality", "report"},
     "sizing": {"mesh", "refinement", "conforming", "schedule", "io", "quality", "report"},
     "io": {"refinement", "conforming", "schedule"},
     "quality": {"refinement", "conforming", "schedule"},
 }
+# The engine is sequential; these headers of its room come after it.
+AFTER_REFINEMENT = {"refinement/indexed_mesh_of_3.h", "refinement/canonical_order.h", "refinement/sort_tetrahedra.h"}
 TBB = re.compile(r"^(tbb|oneapi)/")
+TBB_ROOMS = {"schedule", "parallel"}
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "barrier", "latch"}
 CHANGES_TRIANGULATION = re.compile(
     r"\b(insert_in_hole|create_cell|create_vertex|delete_cell|delete_vertex|create_star_3|"
@@ -90,8 +94,8 @@ def check_header(header, lines):
         if not match:
             continue
         delimiter, target = match.groups()
-        if TBB.match(target) and room != "schedule":
-            violations.append((number, "only schedule/ may include TBB"))
+        if TBB.match(target) and room not in TBB_ROOMS:
+            violations.append((number, "only schedule/ and parallel/ may include TBB"))
         if room in ("refinement", "conforming", "octree", "independence") and target in THREADS:
             violations.append((number, f"{room}/ must not know of threads"))
         path = included(header, delimiter, target)
@@ -109,6 +113,8 @@ def check_header(header, lines):
             violations.append((number, f"{room}/ must not include {path} at the top"))
         elif other in FORBIDDEN.get(room, ()) or (room in ALLOWED and other not in ALLOWED[room]):
             violations.append((number, f"{room}/ must not include {other}/"))
+        elif room == "refinement" and other == "parallel" and header not in AFTER_REFINEMENT:
+            violations.append((number, "the engine in refinement/ must not include parallel/"))
         else:
             edges.append((room, other, number))
     return violations, edges

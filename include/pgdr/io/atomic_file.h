@@ -38,6 +38,7 @@ class Atomic_file {
 
  private:
   void flush();
+  void put(const char* bytes, std::size_t size);
   [[noreturn]] void fail(int error) const;
   void discard() noexcept;
 

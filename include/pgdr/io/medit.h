@@ -10,6 +10,7 @@ namespace pgdr {
 
 /// Writes a mesh as Medit ASCII (`MeshVersionFormatted 2`): vertices, edges, triangles and tetrahedra with
 /// their references, 1-based; doubles in the fewest digits that read back bit for bit.
+/// Formatted on all threads of the caller's arena; the bytes do not depend on how many there are.
 /// `point_dimensions` and `exempt` have no place in the format. Throws `Output_error`;
 /// the file appears complete or not at all.
 void write_medit(const Indexed_mesh_3& mesh, const std::filesystem::path& path);

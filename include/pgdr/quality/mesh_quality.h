@@ -38,17 +38,22 @@ struct Mesh_quality {
   static constexpr double ratio_bin = 0.25;
 };
 
-/// Measures every tetrahedron of `mesh`, whose indices must be in range. Sums run in the order of the mesh.
+/// Measures every tetrahedron of `mesh`, whose indices must be in range, on all threads of the caller's arena. Sums
+/// run over chunks of fixed size and then over these, both in the order of the mesh: the result is the same for every
+/// number of threads.
 Mesh_quality mesh_quality(const Indexed_mesh_3& mesh);
 
 /// 64 bits that stand for the points, edges, triangles and tetrahedra of `mesh` and their references, bit by
-/// bit and in order: equal for equal arrays on every machine with IEEE doubles, and different (but for a
-/// chance of 2^-64) as soon as one bit differs or two items change places. `exempt` and `point_dimensions`
-/// are left out: they follow from the rest, and a mesh that was read back from a `.mesh` file lacks them.
+/// bit and in order: equal for equal arrays on every machine with IEEE doubles and for every number of threads, and
+/// different (but for a chance of about 2^-64) as soon as one bit differs or two items change places. `exempt` and
+/// `point_dimensions` are left out: they follow from the rest, and a mesh that was read back from a `.mesh` file lacks
+/// them.
 ///
-/// The function: h starts at a constant; each 64-bit word w (length of an array, bits of a double, one index
-/// or reference as unsigned) makes h = m(h xor w) with m the finalizer of the SplitMix64 generator (Steele,
-/// Lea and Flood 2014), which is a bijection.
+/// The function: with m the finalizer of the SplitMix64 generator (Steele, Lea and Flood 2014), which is a bijection,
+/// a sequence of 64-bit words is hashed by h = m(h xor w) for each word w, beginning with a constant. The words are,
+/// array by array, the number of numbers in it and the hash of each 2^14 of them. That of such a block is the hash of
+/// four hashes; the i-th of these takes the words i, i + 4, ... of the block, each one double or two 32-bit numbers,
+/// the first one low.
 std::uint64_t mesh_checksum(const Indexed_mesh_3& mesh);
 
 }  // namespace pgdr

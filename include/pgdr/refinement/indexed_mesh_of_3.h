@@ -4,137 +4,67 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
-#include <tuple>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <pgdr/mesh/indexed_mesh_3.h>
+#include <pgdr/parallel/parallel_for.h>
+#include <pgdr/parallel/parallel_reduce.h>
+#include <pgdr/parallel/parallel_sort.h>
+#include <pgdr/parallel/parallel_walk.h>
+#include <pgdr/refinement/canonical_order.h>
 #include <pgdr/refinement/refined_mesh_3.h>
+#include <pgdr/refinement/sort_tetrahedra.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
 
 namespace internal {
 
-/// Interleaves 21 bits each of three coordinates scaled to [0, 1].
-inline std::uint64_t morton_code(const Vec_3& unit) {
-  const auto spread = [](double t) {
-    auto x = static_cast<std::uint64_t>(std::clamp(t, 0.0, 1.0) * 2097151.0);
-    x = (x | x << 32) & 0x1f00000000ffffull;
-    x = (x | x << 16) & 0x1f0000ff0000ffull;
-    x = (x | x << 8) & 0x100f00f00f00f00full;
-    x = (x | x << 4) & 0x10c30c30c30c30c3ull;
-    return (x | x << 2) & 0x1249249249249249ull;
-  };
-  return spread(unit.x) | spread(unit.y) << 1 | spread(unit.z) << 2;
-}
-
-/// The even permutation of a tetrahedron's vertices that starts with the smallest two it can.
-inline std::array<std::uint32_t, 4> canonical(std::array<std::uint32_t, 4> t) {
-  bool odd = false;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 3; j > i; --j)
-      if (t[j] < t[j - 1]) {
-        std::swap(t[j], t[j - 1]);
-        odd = !odd;
-      }
-  if (odd) std::swap(t[2], t[3]);
-  return t;
-}
-
-/// The rotation of a triangle that starts with its smallest vertex.
-inline std::array<std::uint32_t, 3> canonical(std::array<std::uint32_t, 3> t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
-/// Numbers the vertices of meshed cells: domain vertices in their order, then the others along a Morton curve.
-/// The order is a function of the coordinates alone.
-template <class K>
-std::vector<typename Mesh_triangulation_3<K>::Vertex_handle> numbered_vertices(const Refined_mesh_3<K>& mesh) {
-  using Tr = Mesh_triangulation_3<K>;
-  using Vertex_handle = typename Tr::Vertex_handle;
-  constexpr std::uint32_t unused = Tr::Vertex::none, used = unused - 1;
-  const Tr& tr = mesh.triangulation();
-  for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v) Vertex_handle(v)->set_number(unused);
-  for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c)
-    if (c->subdomain() != 0)
-      for (int i = 0; i < 4; ++i) c->vertex(i)->set_number(used);
-
-  struct Key {
-    std::uint64_t code;
-    std::array<double, 3> point;
-    Vertex_handle vertex;
-    bool operator<(const Key& o) const { return std::tie(code, point) < std::tie(o.code, o.point); }
-  };
-  const Domain_3<K>& domain = mesh.domain();
-  std::vector<Vertex_handle> order(domain.vertices.size());
-  std::vector<Key> keys;
-  for (auto it = tr.finite_vertices_begin(); it != tr.finite_vertices_end(); ++it) {
-    const Vertex_handle v = it;
-    if (v->number() != used) continue;
-    if (v->in_dimension() == 0) {
-      order[v->index()] = v;
-      continue;
-    }
-    const Vec_3 p = position(v);
-    Vec_3 unit;
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const double size = domain.upper[k] - domain.lower[k];
-      unit[i] = size > 0 ? (p[i] - domain.lower[k]) / size : 0;
-    }
-    keys.push_back({morton_code(unit), {p.x, p.y, p.z}, v});
-  }
-  std::erase(order, Vertex_handle());
-  std::sort(keys.begin(), keys.end());
-  order.reserve(order.size() + keys.size());
-  for (const Key& k : keys) order.push_back(k.vertex);
-  for (std::size_t i = 0; i < order.size(); ++i) order[i]->set_number(static_cast<std::uint32_t>(i));
-  return order;
-}
-
-}  // namespace internal
-
-namespace internal {
-
 /// Gathers a refined mesh into plain arrays. Two steps, so that the triangulation can go in between: a large mesh
 /// need not be held twice.
+///
+/// The first step goes once through the triangulation and takes everything as it comes: vertices have the numbers of
+/// their places in the container, which may differ from run to run. The second step finds the canonical numbers and
+/// sorts, after which nothing is left of that order. Beside the triangulation there are about 22 bytes for each
+/// tetrahedron: its vertices, its subdomain, and its share of the vertices.
 template <class K>
 class Indexed_mesh_builder_3 {
   using Mesh = Refined_mesh_3<K>;
   using Tr = typename Mesh::Triangulation;
   using Complex = typename Mesh::Complex;
   using Cell_handle = typename Tr::Cell_handle;
+  static constexpr std::uint32_t none = 0xffffffffu;
 
  public:
   /// All that needs the triangulation.
   void gather(const Mesh& mesh) {
-    gather_points(mesh);
-    const Tr& tr = mesh.triangulation();
-    std::size_t count = 0;
-    for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) count += c->subdomain() != 0;
-    tetrahedra_.reserve(count);
-    for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c)
-      if (c->subdomain() != 0) gather_cell(mesh, c);
+    const Domain_3<K>& domain = mesh.domain();
+    for (std::size_t k = 0; k < 3; ++k) lower_[k] = domain.lower[k], upper_[k] = domain.upper[k];
+    squared_bound_ = mesh.radius_edge_ratio() * mesh.radius_edge_ratio();
+    for (const Subdomain& s : mesh.subdomains()) ids_.push_back(s.id);
+    gather_vertices(mesh);
+    gather_cells(mesh);
     gather_edges(mesh);
   }
 
   /// Sorts what was gathered into canonical order.
   Indexed_mesh_3 finish() {
-    const auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
-    std::sort(tetrahedra_.begin(), tetrahedra_.end(), by_vertices);
-    std::sort(triangles_.begin(), triangles_.end(), by_vertices);
-    std::sort(edges_.begin(), edges_.end(), by_vertices);
-    for (const Element<4>& t : exempt_)
-      out_.exempt.push_back(static_cast<std::uint32_t>(
-          std::lower_bound(tetrahedra_.begin(), tetrahedra_.end(), t, by_vertices) - tetrahedra_.begin()));
-    std::sort(out_.exempt.begin(), out_.exempt.end());
-    split(tetrahedra_, out_.tetrahedra, out_.tetrahedron_references);
-    split(triangles_, out_.triangles, out_.triangle_references);
-    split(edges_, out_.edges, out_.edge_references);
-    return std::move(out_);
+    Indexed_mesh_3 out;
+    const std::vector<std::uint32_t> number = number_vertices(out);
+    Tetrahedron_sorter(std::move(*pool_), number, out.points.size())
+        .sort(ids_, out.tetrahedra, out.tetrahedron_references);
+    sort_elements(triangles_, number, out.triangles, out.triangle_references);
+    sort_elements(edges_, number, out.edges, out.edge_references);
+    find_exempt(out);
+    return out;
   }
 
  private:
@@ -142,44 +72,84 @@ class Indexed_mesh_builder_3 {
   struct Element {
     std::array<std::uint32_t, N> vertices;
     std::int32_t reference;
+    bool operator<(const Element& o) const {
+      return vertices != o.vertices ? vertices < o.vertices : reference < o.reference;
+    }
   };
 
-  template <class From, std::size_t N>
-  static void split(std::vector<From>& from, std::vector<std::array<std::uint32_t, N>>& vertices,
-                    std::vector<std::int32_t>& references) {
-    vertices.reserve(from.size());
-    references.reserve(from.size());
-    for (const auto& e : from) {
-      vertices.push_back(e.vertices);
-      references.push_back(e.reference);
-    }
-    from = {};
+  /// Copies the finite vertices and numbers them as they come.
+  void gather_vertices(const Mesh& mesh) {
+    const Tr& tr = mesh.triangulation();
+    const std::vector<int>& markers = mesh.domain().vertex_markers;
+    const std::size_t n = tr.number_of_vertices();
+    points_.resize(n);
+    references_.resize(n);
+    dimensions_.resize(n);
+    used_.resize(n);
+    corners_.resize(mesh.domain().vertices.size(), none);
+    parallel_walk(tr.finite_vertices_begin(), tr.finite_vertices_end(), default_grain,
+                  [&](std::size_t i, auto it, std::size_t count) {
+                    for (const std::size_t end = i + count; i < end; ++i, ++it) {
+                      const typename Tr::Vertex_handle v = it;
+                      v->set_number(static_cast<std::uint32_t>(i));
+                      const Vec_3 p = position(v);
+                      points_[i] = {p.x, p.y, p.z};
+                      dimensions_[i] = static_cast<std::uint8_t>(v->in_dimension());
+                      if (v->in_dimension() != 0) continue;
+                      references_[i] = markers[v->index()];
+                      corners_[v->index()] = static_cast<std::uint32_t>(i);
+                    }
+                    return 0;
+                  });
   }
 
-  void gather_points(const Mesh& mesh) {
-    const auto vertices = numbered_vertices(mesh);
-    out_.points.reserve(vertices.size());
-    out_.point_references.reserve(vertices.size());
-    out_.point_dimensions.reserve(vertices.size());
-    for (const auto v : vertices) {
-      const Vec_3 p = position(v);
-      out_.points.push_back({p.x, p.y, p.z});
-      out_.point_references.push_back(v->in_dimension() == 0 ? mesh.domain().vertex_markers[v->index()] : 0);
-      out_.point_dimensions.push_back(static_cast<std::uint8_t>(v->in_dimension()));
+  /// Copies the meshed cells, marks their vertices as used, and collects the subfacets on them.
+  void gather_cells(const Mesh& mesh) {
+    const Tr& tr = mesh.triangulation();
+    pool_.emplace(tr.tds().number_of_cells(), ids_.size());
+    struct Part {
+      Tetrahedron_pool::Run run;
+      std::vector<Element<3>> triangles;
+    };
+    const auto gather = [&](std::size_t position, auto it, std::size_t count) {
+      Part part{{position, 0}, {}};
+      // The vertices lie anywhere in memory: they are called for some cells before they are looked at.
+      std::array<Cell_handle, 16> cells;
+      while (count > 0) {
+        std::size_t n = 0;
+        for (; count > 0 && n < cells.size(); --count, ++it) {
+          cells[n] = it;
+          if (cells[n]->subdomain() == 0 || tr.is_infinite(cells[n])) continue;
+          for (int k = 0; k < 4; ++k) prefetch(cells[n]->vertex(k));
+          ++n;
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+          gather_cell(cells[i], position + part.run.count++);
+          if (cells[i]->has_subfacet()) gather_subfacets(mesh, cells[i], part.triangles);
+        }
+      }
+      return part;
+    };
+    for (Part& part : parallel_walk(tr.all_cells_begin(), tr.all_cells_end(), default_grain, gather)) {
+      pool_->runs.push_back(part.run);
+      triangles_.insert(triangles_.end(), part.triangles.begin(), part.triangles.end());
     }
   }
 
-  void gather_cell(const Mesh& mesh, Cell_handle c) {
-    const double bound = mesh.radius_edge_ratio() * mesh.radius_edge_ratio();
-    const auto b = tetrahedron_ball(
-        {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))});
-    tetrahedra_.push_back({canonical(std::array<std::uint32_t, 4>{c->vertex(0)->number(), c->vertex(1)->number(),
-                                                                  c->vertex(2)->number(), c->vertex(3)->number()}),
-                           id_of(mesh, c)});
-    if (b.squared_radius > bound * b.squared_shortest) exempt_.push_back(tetrahedra_.back());
-    if (!c->has_subfacet()) return;
-    for (int i = 0; i < 4; ++i)
-      if (c->subfacet(i) != Complex::none) gather_subfacet(mesh, c, i);
+  void gather_cell(Cell_handle c, std::size_t i) {
+    for (int k = 0; k < 4; ++k) {
+      const std::uint32_t v = c->vertex(k)->number();
+      pool_->vertices[i][static_cast<std::size_t>(k)] = v;
+      const std::atomic_ref<std::uint8_t> used(used_[v]);
+      if (used.load(std::memory_order_relaxed) == 0) used.store(1, std::memory_order_relaxed);
+    }
+    pool_->set_label(i, static_cast<std::size_t>(c->subdomain()));
+  }
+
+  static void prefetch([[maybe_unused]] typename Tr::Vertex_handle v) {
+#if defined(__GNUC__)
+    __builtin_prefetch(reinterpret_cast<const char*>(&*v) + sizeof(typename Tr::Vertex) / 2);
+#endif
   }
 
   static int id_of(const Mesh& mesh, Cell_handle c) {
@@ -188,21 +158,23 @@ class Indexed_mesh_builder_3 {
 
   /// Each subfacet is seen from both sides and written once: by the meshed side, between two subdomains by that with
   /// the smaller id, inside one by the side behind the facet, counterclockwise about its normal.
-  void gather_subfacet(const Mesh& mesh, Cell_handle c, int i) {
-    const auto& t = mesh.complex().subfacet(c->subfacet(i));
-    std::array<std::uint32_t, 3> seen, stored;
-    for (int k = 0; k < 3; ++k) {
-      // CGAL's triple is counterclockwise from inside the cell.
-      seen[static_cast<std::size_t>(k)] = c->vertex(Tr::vertex_triple_index(i, 2 - k))->number();
-      stored[static_cast<std::size_t>(k)] = t.vertices[static_cast<std::size_t>(k)]->number();
+  static void gather_subfacets(const Mesh& mesh, Cell_handle c, std::vector<Element<3>>& triangles) {
+    for (int i = 0; i < 4; ++i) {
+      if (c->subfacet(i) == Complex::none) continue;
+      const auto& t = mesh.complex().subfacet(c->subfacet(i));
+      std::array<std::uint32_t, 3> seen, stored;
+      for (int k = 0; k < 3; ++k) {
+        // CGAL's triple is counterclockwise from inside the cell.
+        seen[static_cast<std::size_t>(k)] = c->vertex(Tr::vertex_triple_index(i, 2 - k))->number();
+        stored[static_cast<std::size_t>(k)] = t.vertices[static_cast<std::size_t>(k)]->number();
+      }
+      const Cell_handle n = c->neighbor(i);
+      if (n->subdomain() != 0) {
+        const int here = id_of(mesh, c), there = id_of(mesh, n);
+        if (here != there ? here > there : canonical(stored) != canonical(seen)) continue;
+      }
+      triangles.push_back({seen, mesh.domain().facets[t.facet].marker});
     }
-    seen = canonical(seen);
-    const Cell_handle n = c->neighbor(i);
-    if (n->subdomain() != 0) {
-      const int here = id_of(mesh, c), there = id_of(mesh, n);
-      if (here != there ? here > there : canonical(stored) != seen) return;
-    }
-    triangles_.push_back({seen, mesh.domain().facets[t.facet].marker});
   }
 
   void gather_edges(const Mesh& mesh) {
@@ -210,14 +182,84 @@ class Indexed_mesh_builder_3 {
       const auto& s = mesh.complex().subsegment(i);
       if (!s.alive() || !s.present) continue;
       const std::uint32_t a = s.vertices[0]->number(), b = s.vertices[1]->number();
-      if (a == Tr::Vertex::none || b == Tr::Vertex::none) continue;
-      edges_.push_back({{std::min(a, b), std::max(a, b)}, mesh.domain().segments[s.segment].marker});
+      if (used_[a] && used_[b]) edges_.push_back({{a, b}, mesh.domain().segments[s.segment].marker});
     }
   }
 
-  Indexed_mesh_3 out_;
-  std::vector<Element<4>> tetrahedra_;
-  std::vector<Element<4>> exempt_;
+  /// Numbers the vertices of meshed cells: domain vertices in their order, then the others along a Morton curve.
+  /// Fills the points of `out`; returns the number of each gathered vertex.
+  std::vector<std::uint32_t> number_vertices(Indexed_mesh_3& out) {
+    std::vector<std::uint32_t> order;
+    order.reserve(points_.size());
+    for (const std::uint32_t v : corners_)
+      if (v != none && used_[v]) order.push_back(v);
+    const std::size_t corners = order.size();
+    for (std::size_t v = 0; v < used_.size(); ++v)
+      if (used_[v] && dimensions_[v] != 0) order.push_back(static_cast<std::uint32_t>(v));
+    sort_along_curve(std::span(order).subspan(corners), points_, lower_, upper_);
+
+    std::vector<std::uint32_t> number(points_.size());
+    out.points.resize(order.size());
+    out.point_references.resize(order.size());
+    out.point_dimensions.resize(order.size());
+    parallel_for_chunks(order.size(), default_grain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const std::uint32_t v = order[i];
+        number[v] = static_cast<std::uint32_t>(i);
+        out.points[i] = points_[v];
+        out.point_references[i] = references_[v];
+        out.point_dimensions[i] = dimensions_[v];
+      }
+    });
+    points_ = {};
+    return number;
+  }
+
+  template <std::size_t N>
+  static void sort_elements(std::vector<Element<N>>& elements, const std::vector<std::uint32_t>& number,
+                            std::vector<std::array<std::uint32_t, N>>& vertices,
+                            std::vector<std::int32_t>& references) {
+    parallel_for_chunks(elements.size(), default_grain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        for (std::uint32_t& v : elements[i].vertices) v = number[v];
+        elements[i].vertices = canonical(elements[i].vertices);
+      }
+    });
+    parallel_sort(elements.begin(), elements.end());
+    vertices.reserve(elements.size());
+    references.reserve(elements.size());
+    for (const auto& e : elements) {
+      vertices.push_back(e.vertices);
+      references.push_back(e.reference);
+    }
+    elements = {};
+  }
+
+  /// Lists the tetrahedra over the ratio bound.
+  void find_exempt(Indexed_mesh_3& out) const {
+    out.exempt = parallel_collect(out.tetrahedra.size(), default_grain, [&](std::size_t first, std::size_t last) {
+      std::vector<std::uint32_t> exempt;
+      for (std::size_t i = first; i < last; ++i) {
+        const auto& t = out.tetrahedra[i];
+        const Tetrahedron_ball b = tetrahedron_ball(
+            {to_vec(out.points[t[0]]), to_vec(out.points[t[1]]), to_vec(out.points[t[2]]), to_vec(out.points[t[3]])});
+        if (b.squared_radius > squared_bound_ * b.squared_shortest) exempt.push_back(static_cast<std::uint32_t>(i));
+      }
+      return exempt;
+    });
+  }
+
+  // Of the domain and the parameters.
+  std::array<double, 3> lower_{}, upper_{};
+  double squared_bound_ = 0;
+  std::vector<std::int32_t> ids_;  ///< region ids by subdomain
+  // By vertex, in the order in which they were found.
+  std::vector<std::array<double, 3>> points_;
+  std::vector<std::int32_t> references_;
+  std::vector<std::uint8_t> dimensions_;
+  std::vector<std::uint8_t> used_;      ///< whether a meshed cell has it
+  std::vector<std::uint32_t> corners_;  ///< by domain vertex
+  std::optional<Tetrahedron_pool> pool_;
   std::vector<Element<3>> triangles_;
   std::vector<Element<2>> edges_;
 };
@@ -227,6 +269,7 @@ class Indexed_mesh_builder_3 {
 /// The meshed cells as plain arrays in canonical order: the same for the same mesh, however it was made.
 ///
 /// Subfacets are oriented outwards from the meshed side, between two subdomains from the one with the smaller id.
+/// Works on all threads of the caller's arena.
 template <class K>
 Indexed_mesh_3 indexed_mesh_3(const Refined_mesh_3<K>& mesh) {
   internal::Indexed_mesh_builder_3<K> builder;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_PARALLEL_PARALLEL_SORT_H
+#define PGDR_PARALLEL_PARALLEL_SORT_H
+
+#include <functional>
+
+#include <oneapi/tbb/parallel_sort.h>
+
+namespace pgdr {
+
+/// Sorts on all threads of the caller's arena. Not stable: `less` must leave no two items unordered unless they are
+/// equal in every bit, or the result would depend on how the work was cut.
+template <class Iterator, class Less = std::less<>>
+void parallel_sort(Iterator first, Iterator last, const Less& less = {}) {
+  oneapi::tbb::parallel_sort(first, last, less);
+}
+
+}  // namespace pgdr
+
+#endif
