@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include <pgdr/parallel/parallel_for.h>
+#include <pgdr/parallel/parallel_reduce.h>
+#include <pgdr/parallel/parallel_sort.h>
 
 #include "check_parts.h"
 
@@ -25,12 +30,16 @@ template <std::size_t N>
 void find_duplicates(const std::vector<std::array<std::uint32_t, N>>& items, const char* name,
                      Failures& failures) {
   std::vector<std::array<std::uint32_t, N>> sorted(items);
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    std::sort(sorted[i].begin(), sorted[i].end());
-    if (std::adjacent_find(sorted[i].begin(), sorted[i].end()) != sorted[i].end())
-      failures.add(name, " ", i, " has a vertex twice");
-  }
-  std::sort(sorted.begin(), sorted.end());
+  const auto repeats = parallel_collect(sorted.size(), default_grain, [&](std::size_t first, std::size_t last) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = first; i < last; ++i) {
+      std::sort(sorted[i].begin(), sorted[i].end());
+      if (std::adjacent_find(sorted[i].begin(), sorted[i].end()) != sorted[i].end()) found.push_back(i);
+    }
+    return found;
+  });
+  for (const std::size_t i : repeats) failures.add(name, " ", i, " has a vertex twice");
+  parallel_sort(sorted.begin(), sorted.end());
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] == sorted[i - 1])
       failures.add(name, " with the vertices ", sorted[i][0], ", ", sorted[i][1], N > 2 ? ", ..." : "",
@@ -67,7 +76,7 @@ Check_line check_vertices(const Indexed_mesh_3& mesh) {
 
   std::vector<std::uint32_t> order(mesh.points.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return mesh.points[a] != mesh.points[b] ? mesh.points[a] < mesh.points[b] : a < b;
   });
   for (std::size_t i = 1; i < order.size(); ++i)
@@ -87,11 +96,17 @@ Check_line check_duplicates(const Indexed_mesh_3& mesh) {
 Check_line check_orientation(const Indexed_mesh_3& mesh) {
   Failures failures;
   std::size_t flat = 0, negative = 0;
-  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-    const auto& t = mesh.tetrahedra[i];
-    const auto orientation =
-        CGAL::orientation(point(mesh, t[0]), point(mesh, t[1]), point(mesh, t[2]), point(mesh, t[3]));
-    if (orientation == CGAL::POSITIVE) continue;
+  const auto bad = parallel_collect(mesh.tetrahedra.size(), default_grain, [&](std::size_t first, std::size_t last) {
+    std::vector<std::pair<std::size_t, CGAL::Orientation>> found;
+    for (std::size_t i = first; i < last; ++i) {
+      const auto& t = mesh.tetrahedra[i];
+      const auto orientation =
+          CGAL::orientation(point(mesh, t[0]), point(mesh, t[1]), point(mesh, t[2]), point(mesh, t[3]));
+      if (orientation != CGAL::POSITIVE) found.emplace_back(i, orientation);
+    }
+    return found;
+  });
+  for (const auto& [i, orientation] : bad) {
     ++(orientation == CGAL::COPLANAR ? flat : negative);
     failures.add("tetrahedron ", i);
   }

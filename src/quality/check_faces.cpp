@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The checks of how tetrahedra fit together: faces, boundary, overlap.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
+#include <pgdr/parallel/parallel_for.h>
 #include <pgdr/quality/compensated_sum.h>
 #include <pgdr/quality/measures.h>
 
@@ -79,15 +83,29 @@ Check_line check_overlap(const Indexed_mesh_3& mesh, const Face_table& faces) {
   // means that they cover it several times. Together with `faces` this makes the mesh locally one sheet.
   std::vector<double> angles(mesh.points.size(), 0.0);
   Compensated_sum volume, magnitude;
-  for (const auto& t : mesh.tetrahedra) {
-    const P &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
-    const double det = orientation_determinant(a, b, c, d);
-    volume += det / 6;
-    magnitude += std::abs(det / 6);
-    angles[t[0]] += solid_angle(a, b, c, d, det);
-    angles[t[1]] += solid_angle(b, a, d, c, det);
-    angles[t[2]] += solid_angle(c, d, a, b, det);
-    angles[t[3]] += solid_angle(d, c, b, a, det);
+  // Measured at once, some at a time, and added in the order of the mesh.
+  struct Measured {
+    double determinant;
+    std::array<double, 4> angles;
+  };
+  const std::size_t count = mesh.tetrahedra.size();
+  std::vector<Measured> measured(std::min(count, std::size_t(1) << 18));
+  for (std::size_t begin = 0; begin < count; begin += measured.size()) {
+    const std::size_t n = std::min(measured.size(), count - begin);
+    parallel_for_chunks(n, default_grain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const auto& t = mesh.tetrahedra[begin + i];
+        const P &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
+        const double det = orientation_determinant(a, b, c, d);
+        measured[i] = {det, {solid_angle(a, b, c, d, det), solid_angle(b, a, d, c, det), solid_angle(c, d, a, b, det),
+                             solid_angle(d, c, b, a, det)}};
+      }
+    });
+    for (std::size_t i = 0; i < n; ++i) {
+      volume += measured[i].determinant / 6;
+      magnitude += std::abs(measured[i].determinant / 6);
+      for (std::size_t k = 0; k < 4; ++k) angles[mesh.tetrahedra[begin + i][k]] += measured[i].angles[k];
+    }
   }
   const auto fullest = std::max_element(angles.begin(), angles.end());
   if (*fullest > 4 * pi * (1 + 1e-6))

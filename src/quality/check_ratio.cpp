@@ -5,11 +5,15 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 
 #include <pgdr/domain/small_angles_3.h>
+#include <pgdr/parallel/parallel_for.h>
+#include <pgdr/parallel/parallel_reduce.h>
 #include <pgdr/quality/measures.h>
 
 #include "aabb_tree.h"
@@ -72,22 +76,43 @@ std::unique_ptr<Sharp_classes> sharp_features(const Epick_domain& domain) {
   return classes;
 }
 
+/// Squares of the circumradius and of the shortest edge of tetrahedron i.
+std::pair<double, double> squared_radius_and_edge(const Indexed_mesh_3& mesh, std::size_t i) {
+  const auto& t = mesh.tetrahedra[i];
+  const P &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
+  return {squared_circumradius(a, b, c, d), squared_shortest_edge(a, b, c, d)};
+}
+
 }  // namespace
 
 Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, double bound) {
   const double limit = bound * bound * (1 + 2e-9);
   Failures failures;
-  double worst = 0;
   std::array<std::size_t, class_bounds_deg.size()> excused{};
-  std::size_t over = 0;
   std::unique_ptr<Sharp_classes> sharp;
-  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+  struct Found {
+    double worst = 0;
+    std::vector<std::size_t> over;
+  };
+  const Found found = parallel_reduce(
+      mesh.tetrahedra.size(), default_grain, Found{},
+      [&](std::size_t first, std::size_t last) {
+        Found part;
+        for (std::size_t i = first; i < last; ++i) {
+          const auto [rr, ll] = squared_radius_and_edge(mesh, i);
+          part.worst = std::max(part.worst, rr / ll);
+          if (!(rr <= limit * ll)) part.over.push_back(i);
+        }
+        return part;
+      },
+      [](Found& all, const Found& part) {
+        all.worst = std::max(all.worst, part.worst);
+        all.over.insert(all.over.end(), part.over.begin(), part.over.end());
+      });
+  for (const std::size_t i : found.over) {
     const auto& t = mesh.tetrahedra[i];
     const P &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
-    const double rr = squared_circumradius(a, b, c, d), ll = squared_shortest_edge(a, b, c, d);
-    worst = std::max(worst, rr / ll);
-    if (rr <= limit * ll) continue;
-    ++over;
+    const auto [rr, ll] = squared_radius_and_edge(mesh, i);
     if (domain != nullptr && !sharp) sharp = sharp_features(*domain);
     std::size_t nearest_class = class_bounds_deg.size();
     double nearest = std::numeric_limits<double>::infinity();
@@ -106,7 +131,7 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
       failures.add("tetrahedron ", i, " has ratio ", std::sqrt(rr / ll), " and no small angle nearby");
   }
   std::string figures =
-      text("worst ", std::sqrt(worst), ", bound ", bound, ", ", over, " tetrahedra over it");
+      text("worst ", std::sqrt(found.worst), ", bound ", bound, ", ", found.over.size(), " tetrahedra over it");
   if (domain != nullptr) {
     figures += "; near angles";
     for (std::size_t k = 0; k < excused.size(); ++k)

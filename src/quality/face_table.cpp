@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include <pgdr/parallel/parallel_for.h>
+
 namespace pgdr::quality_detail {
 
 namespace {
@@ -34,9 +36,11 @@ Face_table::Face_table(const Indexed_mesh_3& mesh) : mesh_(mesh), begin_(mesh.po
   std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
   for_each_half([&](const Triangle& t, std::uint32_t half) { halves_[next[t[0]]++] = {t[1], t[2], half}; });
   const auto key = [](const Half_face& h) { return std::make_tuple(h.second, h.third, h.tetrahedron_face); };
-  for (std::size_t v = 0; v + 1 < begin_.size(); ++v)
-    std::sort(halves_.begin() + std::ptrdiff_t(begin_[v]), halves_.begin() + std::ptrdiff_t(begin_[v + 1]),
-              [key](const Half_face& a, const Half_face& b) { return key(a) < key(b); });
+  parallel_for_chunks(mesh.points.size(), default_grain / 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      std::sort(halves_.begin() + std::ptrdiff_t(begin_[v]), halves_.begin() + std::ptrdiff_t(begin_[v + 1]),
+                [key](const Half_face& a, const Half_face& b) { return key(a) < key(b); });
+  });
   listed_.resize(halves_.size());
   for (const auto& t : mesh.triangles) {
     const auto [first, n] = find(t);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
@@ -80,6 +81,32 @@ TEST_CASE("the keys of --stats are stable", "[apps]") {
   CHECK(json::parse(file_text(sandbox / "b.json"))["mesh_checksum"] == stats["mesh_checksum"]);
   REQUIRE(sandbox.run(arguments + "c.json --ignore-region-sizes").exit_code == 0);
   CHECK(json::parse(file_text(sandbox / "c.json"))["tetrahedra"] < stats["tetrahedra"]);
+}
+
+TEST_CASE("the outputs are the same for every number of threads", "[apps]") {
+  const Sandbox sandbox;
+  const auto run = [&sandbox](const std::string& threads) {
+    const Run mesh = sandbox.run("mesh " + shape("two_regions.poly") + " --quiet --size 0.15" + threads +
+                                 " -o out.mesh -o out.vtu --stats s.json");
+    INFO(mesh.err);
+    REQUIRE(mesh.exit_code == 0);
+    const Run check = sandbox.run("check out.mesh" + threads + " --plc " + shape("two_regions.poly"));
+    CHECK(check.exit_code == 0);
+    const json stats = json::parse(file_text(sandbox / "s.json"));
+    return std::tuple(stats["threads"].get<unsigned>(), file_text(sandbox / "out.mesh"), file_text(sandbox / "out.vtu"),
+                      stats["mesh_checksum"].get<std::string>(), check.out);
+  };
+  auto expected = run(" --threads 1");
+  CHECK(std::get<0>(expected) == 1);
+  for (const unsigned threads : {2u, 3u, 8u}) {
+    std::get<0>(expected) = threads;
+    CHECK((run(" --threads " + std::to_string(threads)) == expected));
+  }
+  const auto all = run("");
+  CHECK(std::get<0>(all) >= 1);
+  CHECK((run(" --threads 0") == all));
+  std::get<0>(expected) = std::get<0>(all);
+  CHECK((all == expected));
 }
 
 TEST_CASE("sizes bound the circumradii", "[apps]") {

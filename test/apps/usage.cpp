@@ -52,8 +52,10 @@ TEST_CASE("options of mesh that make no sense", "[apps]") {
   check_fails(sandbox, mesh + "--min-edge-length 0", 2, {"--min-edge-length"});
   check_fails(sandbox, mesh + "--max-vertices 0", 2, {"--max-vertices"});
   check_fails(sandbox, mesh + "--max-vertices=-5", 2, {"--max-vertices"});
-  check_fails(sandbox, mesh + "--threads 0", 2, {"--threads"});
-  check_fails(sandbox, mesh + "--threads 1.5", 2, {"--threads"});
+  for (const char* value : {"-1", "1.5", "many", "1025", "99999999999"}) {
+    check_fails(sandbox, mesh + "--threads=" + value, 2, {"--threads", "1024", value});
+    check_fails(sandbox, std::string("check out.mesh --threads=") + value, 2, {"--threads", "1024", value});
+  }
   check_fails(sandbox, mesh + "--nested sometimes", 2, {"--nested"});
   check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,1", 2, {"--refine-box"});
   check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,0:0.1", 2, {"--refine-box", "empty"});

@@ -14,7 +14,7 @@ namespace pgdr {
 /// other in that order: make(i, product) overwrites an old product, use(i, product) is never called twice at a time.
 ///
 /// There are at most three products for each thread, whatever n is; each is default-constructed and used again and
-/// again, so that its memory is. After an exception nothing more is made or used; it passes through.
+/// again, so that its memory is. After an exception nothing more is used; it passes through.
 template <class Product, class Make, class Use>
 void parallel_in_order(std::size_t n, const Make& make, const Use& use) {
   namespace tbb = oneapi::tbb;

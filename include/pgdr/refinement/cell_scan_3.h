@@ -51,8 +51,10 @@ class Cell_scan_3 {
  private:
   /// Open addressing; the set is only asked for membership, so that addresses decide nothing.
   bool insert(Cell_handle c) {
-    if (2 * ++count_ > seen_.size()) grow();
-    return place(&*c);
+    if (2 * count_ >= seen_.size()) grow();
+    const bool fresh = place(&*c);
+    count_ += fresh;
+    return fresh;
   }
 
   bool place(const void* p) {

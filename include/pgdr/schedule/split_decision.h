@@ -112,6 +112,7 @@ class Split_decision {
   bool check() {
     std::vector<Verdict> verdicts(next_.size(), Verdict::untouched);
     tbb::parallel_for(std::uint32_t{0}, next_.size(), [&](std::uint32_t j) { verdicts[j] = judge(j); });
+    const std::vector<std::uint8_t> split = split_;
     bool good = true;
     for (std::uint32_t j = 0; j < next_.size(); ++j) {
       if (verdicts[j] == Verdict::untouched || verdicts[j] == Verdict::good) continue;
@@ -119,17 +120,15 @@ class Split_decision {
       const bool for_good = verdicts[j] == Verdict::coarse;
       if (!for_good) make_room(j);
       const std::uint32_t p = parents_[j];
-      if (split_[p] || vetoed_[p]) {
+      if (split[p]) {
         veto(p, for_good);
         continue;
       }
       for (const std::uint32_t n : leaves_[p].touching)
-        if (split_[n] && next_edge(n) < leaves_[p].shortest) veto(n, for_good);
+        if (split[n] && 0.5 * leaves_[n].edge < leaves_[p].shortest) veto(n, for_good);
     }
     return good;
   }
-
-  double next_edge(std::uint32_t old) const { return leaves_[old].edge / (split_[old] ? 2 : 1); }
 
   Verdict judge(std::uint32_t j) const {
     const std::uint32_t p = parents_[j];
