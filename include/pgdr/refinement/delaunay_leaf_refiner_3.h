@@ -248,16 +248,26 @@ class Delaunay_leaf_refiner_3 {
   }
 
   /// Whether every tetrahedron that meets the box, but is not inside the hole, has m < bound. Reads only.
-  bool is_finer(const Region_3& box, const Region_3& hole, double bound, const Worklist& list) const {
-    Cell_scan_3<Tr> scan(tr_);
-    return scan.visit(
+  Scan_result scan(const Region_3& box, const Region_3& hole, double bound, const Worklist& list) const {
+    Scan_result result;
+    Cell_scan_3<Tr> cells(tr_);
+    result.finer = cells.visit(
         nearest_in_hull(box), list.anchor(), [&](Cell_handle c) { return boxes_meet(points(c), box); },
         [&](Cell_handle c) {
+          // Most tetrahedra are small enough by what is known of their balls.
+          const double known = c->ball().is_known() ? static_cast<double>(c->ball().squared_outside)
+                                                    : std::numeric_limits<double>::infinity();
+          if (known < bound * bound && known <= result.coarsest * result.coarsest) return true;
           const Tetrahedron_points p = points(c);
-          if (!boxes_meet(p, box) || is_inside(p, hole)) return true;
           const Tetrahedron_ball b = tetrahedron_ball(p);
-          return b.squared_radius < bound * bound * (1 - 1e-8) || enclosing_radius(p) < bound;
+          // What is poor, or outside, is on some worklist, or was refused.
+          if (c->subdomain() != 0 && b.squared_radius > result.coarsest * result.coarsest &&
+              !criteria_.is_poor(b, c->subdomain()))
+            result.coarsest = static_cast<double>(upwards) * std::sqrt(b.squared_radius);
+          return b.squared_radius < bound * bound * (1 - 1e-8) || !boxes_meet(p, box) || is_inside(p, hole) ||
+                 enclosing_radius(p) < bound;
         });
+    return result;
   }
 
   /// Whether every tetrahedron whose circumball meets the box has a circumradius < bound. Reads only.
@@ -375,7 +385,7 @@ class Delaunay_leaf_refiner_3 {
     const Cell_id id{c, c->generation(), upwards * static_cast<float>(m)};
     if (m > target)
       list.active_.push(id);
-    else if (m > 0.25 * target)
+    else if (!w.task_.last)
       list.outside_.push_back(id);  // smaller leaves may come
     else
       note_coarse(c, m * static_cast<double>(upwards), list);
@@ -389,7 +399,7 @@ class Delaunay_leaf_refiner_3 {
   }
 
   void give_up(const Tetrahedron_points& corners, Worklist& list, Drain_result& result) const {
-    list.note_coarse(enclosing_radius(corners));
+    list.note_refused(enclosing_radius(corners));
     ++result.refused;
   }
 

@@ -21,6 +21,7 @@ struct Leaf_task {
   double target = 0;  ///< poor elements with a smaller circumradius are left for a smaller leaf
   /// Elements outside the domain are refined down to this, for the sake of the leaves beside them.
   double outside_target = std::numeric_limits<double>::infinity();
+  bool last = false;  ///< the leaf will not be split any more
   std::size_t quota = std::numeric_limits<std::size_t>::max();  ///< it inserts about this many points at most
   bool features_only = false;  ///< elements in the volume have to wait: a facet near by is torn
   std::uint16_t tag = 0;       ///< checked runs: names the task among the running ones; 0: no checks
@@ -40,6 +41,12 @@ struct Work_estimate {
   double smallest_size = std::numeric_limits<double>::infinity();  ///< value of the sizing field among them
 };
 
+/// What a scan of the elements around a box found.
+struct Scan_result {
+  bool finer = false;   ///< all of them have m below the bound
+  double coarsest = 0;  ///< largest circumradius among those that nobody intends to refine; valid if `finer`
+};
+
 /// A sequential engine that a scheduler can run leaf by leaf, several leaves at once where they are far apart.
 ///
 /// - `Worklist`: what one leaf still has to do. *Active* elements are above the leaf's target, *deferred* ones below.
@@ -52,7 +59,8 @@ struct Work_estimate {
 /// worklist only: no clock, no addresses, no thread. `receive` puts a parcel into a worklist, `activate` applies a new
 /// target, `dispatch` empties a worklist, parcel by parcel, into a sink. `settle` does, alone, what no leaf could do:
 /// it takes it from all worklists that are torn.
-/// `is_finer` tells whether all elements that meet a box, but not those inside a hole in it, have m below a bound.
+/// `scan` looks at all elements that meet a box, to tell whether those that are not inside a hole in it have m below a
+/// bound; it only reads.
 template <class R>
 concept LeafRefiner = requires(R refiner, typename R::Worker& worker, typename R::Worklist& list,
                                const typename R::Worklist& const_list, typename R::Parcel parcel,
@@ -70,7 +78,8 @@ concept LeafRefiner = requires(R refiner, typename R::Worker& worker, typename R
   { refiner.receive(list, std::move(parcel), number, number) };
   { refiner.activate(list, number, number) };
   { refiner.estimate(const_list) } -> std::same_as<Work_estimate>;
-  { refiner.is_finer(box, box, number, const_list) } -> std::convertible_to<bool>;
+  { refiner.scan(box, box, number, const_list) } -> std::same_as<Scan_result>;
+  { list.reset_coarsest(number) };
 };
 
 }  // namespace pgdr

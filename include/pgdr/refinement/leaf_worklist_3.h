@@ -53,9 +53,13 @@ class Leaf_worklist_3 {
   /// A facet near by is torn, and only a run of `settle` can mend it.
   bool is_torn() const { return torn_; }
 
-  /// Upper bound of m, over all elements near the leaf that are not waiting to be refined. Never shrinks.
-  double coarsest() const { return coarsest_; }
+  /// Upper bound of m, over all elements near the leaf that are not waiting to be refined: fine ones, and those that
+  /// were refused.
+  double coarsest() const { return std::max(coarsest_, refused_); }
   void note_coarse(double radius) { coarsest_ = std::max(coarsest_, radius); }
+  void note_refused(double radius) { refused_ = std::max(refused_, radius); }
+  /// After a scan has measured the fine ones.
+  void reset_coarsest(double radius) { coarsest_ = radius; }
   /// The largest radius that is deferred, as of the last `measure_deferred`.
   double measured_deferred() const { return largest_deferred_; }
   void measure_deferred() {
@@ -81,6 +85,7 @@ class Leaf_worklist_3 {
   /// What a child of this leaf starts from.
   void inherit(const Leaf_worklist_3& parent) {
     coarsest_ = parent.coarsest_;
+    refused_ = parent.refused_;
     anchor_ = parent.anchor_;
   }
 
@@ -109,6 +114,7 @@ class Leaf_worklist_3 {
   std::vector<Parcel> outgoing_;
   Vertex_handle anchor_;
   double coarsest_ = 0;
+  double refused_ = 0;
   double largest_deferred_ = 0;
   bool torn_ = false;
 };

@@ -107,6 +107,8 @@ class Epoch_scheduler {
       return;
     }
     split(decision.split(), decision.next());
+    for (std::uint32_t j = 0; j < octree_.size(); ++j)
+      if (decision.measured(j)) leaves_[j].work.reset_coarsest(*decision.measured(j));
   }
 
   void start_epoch() {
@@ -268,6 +270,7 @@ class Epoch_scheduler {
     task.reach = leaf.admissible && leaves_.size() > 1 ? grown(box, leaf.shortest / 2) : Region_3{};
     task.target = leaf.target;
     task.outside_target = outside_target(leaf);
+    task.last = leaf.final;
     task.quota = quota == unlimited ? quota : quota + (k < extra_ ? 1 : 0);
     task.cancel = parameters_.cancel;
     task.features_only = std::any_of(leaf.touching.begin(), leaf.touching.end(),
@@ -415,8 +418,8 @@ class Epoch_scheduler {
       octree_.buffer(i, around);
       bool good = std::all_of(around.begin(), around.end(), [&](std::uint32_t n) { return buffered[n]; });
       if (good)
-        good = engine_.is_finer(grown(closed_box(i), 3 * leaves_[i].shortest / 8), closed_box(i),
-                                leaves_[i].shortest / 8, leaves_[i].work);
+        good = engine_.scan(grown(closed_box(i), 3 * leaves_[i].shortest / 8), closed_box(i),
+                            leaves_[i].shortest / 8, leaves_[i].work).finer;
       leaves_[i].admissible = good;
     });
     recorder_.section("conditions", true, begin);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -27,10 +29,10 @@ class Split_decision {
 
   /// Below this number of expected insertions a leaf is not worth splitting; the first of all leaves is worth it
   /// later, since from then on the outside has to be refined as well.
-  static constexpr double least_work = 1000, least_work_of_all = 10000;
+  static constexpr double least_work = 4000, least_work_of_all = 10000;
 
   Split_decision(const Engine& engine, const Linear_octree_3& octree, std::vector<Leaf>& leaves)
-      : engine_(engine), octree_(octree), leaves_(leaves), split_(octree.size(), 0), next_(octree) {}
+      : engine_(engine), octree_(octree), leaves_(leaves), split_(octree.size(), 0), next_(octree), last_(octree) {}
 
   /// True if the octree changes: see `split`, `next` and `parents`. Leaves that will not be split become final; where
   /// only deferred elements are in the way, the leaves around are asked to refine these first.
@@ -53,9 +55,16 @@ class Split_decision {
   const std::vector<std::uint8_t>& split() const { return split_; }
   const Linear_octree_3& next() const { return next_; }
   const std::vector<std::uint32_t>& parents() const { return parents_; }
+  /// What a scan found to be the coarsest element near a new leaf; none where it was not needed.
+  const std::optional<double>& measured(std::uint32_t j) const { return judged_[j].coarsest; }
 
  private:
   enum class Verdict : std::uint8_t { untouched, good, pending, coarse };
+  struct Judgement {
+    Verdict verdict = Verdict::untouched;
+    double shortest = 0;  ///< ell* that it was made for
+    std::optional<double> coarsest{};
+  };
 
   void nominate() {
     std::vector<std::uint8_t> ended(octree_.size(), 0);
@@ -110,14 +119,25 @@ class Split_decision {
 
   /// Evaluates the zone condition where the octree changes. False if something was vetoed.
   bool check() {
-    std::vector<Verdict> verdicts(next_.size(), Verdict::untouched);
-    tbb::parallel_for(std::uint32_t{0}, next_.size(), [&](std::uint32_t j) { verdicts[j] = judge(j); });
+    std::vector<Judgement> before = std::move(judged_);
+    judged_.assign(next_.size(), {});
+    tbb::parallel_for(std::uint32_t{0}, next_.size(), [&](std::uint32_t j) {
+      // Most leaves are the same as in the attempt before.
+      const std::uint32_t i = before.empty() ? 0 : last_.find(next_[j]);
+      if (!before.empty() && last_[i] == next_[j] && before[i].verdict != Verdict::untouched &&
+          before[i].shortest == next_.shortest_touching_edge(j))
+        judged_[j] = before[i];
+      else
+        judged_[j] = judge(j);
+    });
+    last_ = next_;
     const std::vector<std::uint8_t> split = split_;
     bool good = true;
     for (std::uint32_t j = 0; j < next_.size(); ++j) {
-      if (verdicts[j] == Verdict::untouched || verdicts[j] == Verdict::good) continue;
+      const Verdict verdict = judged_[j].verdict;
+      if (verdict == Verdict::untouched || verdict == Verdict::good) continue;
       good = false;
-      const bool for_good = verdicts[j] == Verdict::coarse;
+      const bool for_good = verdict == Verdict::coarse;
       if (!for_good) make_room(j);
       const std::uint32_t p = parents_[j];
       if (split[p]) {
@@ -130,9 +150,11 @@ class Split_decision {
     return good;
   }
 
-  Verdict judge(std::uint32_t j) const {
+  Judgement judge(std::uint32_t j) const {
     const std::uint32_t p = parents_[j];
-    if (!split_[p] && next_.shortest_touching_edge(j) == leaves_[p].shortest) return Verdict::untouched;
+    Judgement result;
+    result.shortest = next_.shortest_touching_edge(j);
+    if (!split_[p] && result.shortest == leaves_[p].shortest) return result;
     std::vector<Requirement> requirements;
     Zone_condition().requirements(next_, j, requirements);
     const Requirement& r = requirements.front();
@@ -144,7 +166,8 @@ class Split_decision {
       pending = std::max(pending, leaves_[parents_[n]].work.measured_deferred());
       coarse = std::max(coarse, leaves_[parents_[n]].work.coarsest());
     }
-    if (pending >= r.bound) return Verdict::pending;
+    result.verdict = Verdict::pending;
+    if (pending >= r.bound) return result;
     Region_3 box, hole;
     for (int k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(k);
@@ -159,8 +182,12 @@ class Split_decision {
         if (leaf.upper[k] < box.lower[k] || box.upper[k] < leaf.lower[k]) return false;
       return true;
     });
-    if (coarse < r.bound && !reached) return Verdict::good;
-    return engine_.is_finer(box, hole, r.bound, leaves_[p].work) ? Verdict::good : Verdict::coarse;
+    result.verdict = Verdict::good;
+    if (coarse < r.bound && !reached) return result;
+    const Scan_result scan = engine_.scan(box, hole, r.bound, leaves_[p].work);
+    if (scan.finer && !leaves_[p].final) result.coarsest = scan.coarsest;
+    if (!scan.finer) result.verdict = Verdict::coarse;
+    return result;
   }
 
   /// Asks the leaves around a new one to refine what only waits there.
@@ -184,6 +211,8 @@ class Split_decision {
   std::vector<std::uint8_t> vetoed_;
   std::vector<std::uint32_t> far_reaching_;
   Linear_octree_3 next_;
+  Linear_octree_3 last_;  ///< of the attempt before
+  std::vector<Judgement> judged_;
   std::vector<std::uint32_t> parents_;
   bool progress_ = false;
 };
