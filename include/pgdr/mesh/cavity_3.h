@@ -177,6 +177,7 @@ class Cavity_3 {
         c = cells_[k];
         c->advance_generation();
         c->tds_data().clear();
+        c->ball().forget();
       } else {
         c = tr_->tds().create_cell();
         if (guard_) guard_->adopt(c);

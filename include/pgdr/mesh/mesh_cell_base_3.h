@@ -8,6 +8,8 @@
 
 #include <CGAL/Triangulation_cell_base_3.h>
 
+#include <pgdr/mesh/certified_ball.h>
+
 namespace pgdr {
 
 /// Bit of the edge between the vertices i != j of a cell.
@@ -68,6 +70,10 @@ class Mesh_cell_base_3 : public Cb {
   void set_erase_counter(unsigned int c) { atomic_generation().store(c, std::memory_order_relaxed); }
   void increment_erase_counter() { advance_generation(); }
 
+  /// The circumball as far as it is known.
+  const Certified_ball& ball() const { return ball_; }
+  Certified_ball& ball() { return ball_; }
+
   /// Tag of the task that works on the cell, 0 for none; kept by `Zone_guard_3` in checked runs only.
   std::atomic_ref<std::uint16_t> owner() const { return std::atomic_ref<std::uint16_t>(owner_); }
 
@@ -78,6 +84,7 @@ class Mesh_cell_base_3 : public Cb {
   mutable std::uint16_t owner_ = 0;
   mutable unsigned int generation_;
   std::int32_t subdomain_ = 0;
+  Certified_ball ball_;
   std::array<std::uint32_t, 4> subfacets_{no_subfacet, no_subfacet, no_subfacet, no_subfacet};
 };
 

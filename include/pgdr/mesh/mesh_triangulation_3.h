@@ -37,6 +37,10 @@ class Mesh_triangulation_3
   ///
   /// The same answer as `side_of_sphere(c, p, true) == ON_BOUNDED_SIDE`, with the finite case first.
   bool in_conflict(Cell_handle c, const Point& p) const {
+    if (c->ball().is_known()) {
+      const int side = c->ball().side(to_vec(p));
+      if (side != 0) return side > 0;
+    }
     const Vertex_handle inf = this->infinite_vertex();
     const Vertex_handle v0 = c->vertex(0), v1 = c->vertex(1), v2 = c->vertex(2), v3 = c->vertex(3);
     if (v0 != inf && v1 != inf && v2 != inf && v3 != inf)

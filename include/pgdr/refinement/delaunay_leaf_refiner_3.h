@@ -191,7 +191,7 @@ class Delaunay_leaf_refiner_3 {
       sink(Parcel{home, Kind::retry, {}, std::move(e)});
     }
     const auto send = [&](const Cell_id& id) {
-      if (id.is_live()) sink(Parcel{steiner_point(id.cell), Kind::poor, id, nullptr});
+      if (id.is_live()) sink(Parcel{rough_steiner_point(id.cell), Kind::poor, id, nullptr});
     };
     while (!list.active_.empty()) send(list.active_.pop());
     for (const Cell_id& id : list.deferred_) send(id);
@@ -353,8 +353,11 @@ class Delaunay_leaf_refiner_3 {
   void classify(Worker& w, Cell_handle c, Worklist& list) {
     if (c->subdomain() == 0) return classify_outside(w, c, list);
     if (c->has_subfacet() && is_handed_over(w, c)) return classify_outside(w, c, list);
-    const Tetrahedron_ball ball = tetrahedron_ball(points(c));
-    const float radius = upwards * static_cast<float>(std::sqrt(ball.squared_radius));
+    const Tetrahedron_ball ball = tetrahedron_ball(position(c->vertex(0)), position(c->vertex(1)),
+                                                   position(c->vertex(2)), position(c->vertex(3)));
+    const double r = std::sqrt(ball.squared_radius);
+    c->ball().set(ball.center, r, ball_error);
+    const float radius = upwards * static_cast<float>(r);
     if (criteria_.is_poor(ball, c->subdomain()))
       list.add_poor({c, c->generation(), radius}, w.task_.target);
     else
@@ -365,7 +368,9 @@ class Delaunay_leaf_refiner_3 {
     const double target = w.task_.outside_target;
     if (target == std::numeric_limits<double>::infinity() || tr_.is_infinite(c)) return;
     const Tetrahedron_points p = points(c);
-    const double r = std::sqrt(tetrahedron_ball(p).squared_radius);
+    const Tetrahedron_ball ball = tetrahedron_ball(p);
+    const double r = std::sqrt(ball.squared_radius);
+    c->ball().set(ball.center, r, ball_error);
     const double m = r <= target ? r : enclosing_radius(p);
     const Cell_id id{c, c->generation(), upwards * static_cast<float>(m)};
     if (m > target)
@@ -433,7 +438,14 @@ class Delaunay_leaf_refiner_3 {
     return {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))};
   }
 
-  Vec_3 steiner_point(Cell_handle c) const {
+  /// Good enough to find the leaf that will look at it; that one computes the point itself.
+  Vec_3 rough_steiner_point(Cell_handle c) const {
+    const Certified_ball& b = c->ball();
+    if (b.is_known()) {
+      const Vec_3 p{static_cast<double>(b.center[0]), static_cast<double>(b.center[1]),
+                    static_cast<double>(b.center[2])};
+      if (hull_.contains_closed(p)) return p;
+    }
     const Tetrahedron_points corners = points(c);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
     return c->subdomain() == 0 ? clamp_to_hull(ball.center) : into_hull(ball.center, corners);

@@ -29,7 +29,7 @@ inline double squared_shortest_edge(const Tetrahedron_points& p) {
 }
 
 /// The same by rational arithmetic, each figure rounded once; for cells so flat that doubles have no say.
-inline Tetrahedron_ball exact_tetrahedron_ball(const Tetrahedron_points& p) {
+[[gnu::noinline]] inline Tetrahedron_ball exact_tetrahedron_ball(const Tetrahedron_points& p) {
   using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
   std::array<Exact::Point_3, 4> q;
   for (std::size_t i = 0; i < 4; ++i) q[i] = Exact::Point_3(p[i].x, p[i].y, p[i].z);
@@ -47,22 +47,37 @@ inline Tetrahedron_ball exact_tetrahedron_ball(const Tetrahedron_points& p) {
   return b;
 }
 
-/// Circumball, shortest edge and volume of a tetrahedron, all to about nine digits.
-inline Tetrahedron_ball tetrahedron_ball(const Tetrahedron_points& p) {
-  const Vec_3 u = p[1] - p[0], v = p[2] - p[0], w = p[3] - p[0];
+/// Relative to the circumradius: how far center and radius of a `tetrahedron_ball` are off at most.
+///
+/// Below the threshold on the determinant the figures are exact but for one rounding. Above it, the rounding errors
+/// of differences, products and determinant, a few dozen units of 2^-53, are amplified by at most
+/// |u||v||w| / det <= 1e6.
+constexpr double ball_error = 4e-8;
+
+/// Circumball, shortest edge and volume of the tetrahedron (a, b, c, d), all to about eight digits.
+///
+/// Inlined by force: handing the points over in memory costs more than half of the arithmetic.
+[[gnu::always_inline]] inline Tetrahedron_ball tetrahedron_ball(const Vec_3& a, const Vec_3& b, const Vec_3& c,
+                                                                const Vec_3& d) {
+  const Vec_3 u = b - a, v = c - a, w = d - a;
   const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
   const Vec_3 vw = cross(v, w);
   const double det = dot(u, vw);
   // The determinant's rounding error is a few units of 1e-16 |u||v||w|.
-  if (det * det < 1e-12 * uu * vv * ww) return exact_tetrahedron_ball(p);
+  if (det * det < 1e-12 * uu * vv * ww) [[unlikely]]
+    return exact_tetrahedron_ball({a, b, c, d});
   const Vec_3 offset = (0.5 / det) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
-  Tetrahedron_ball b;
-  b.center = p[0] + offset;
-  b.squared_radius = squared_length(offset);
-  b.squared_shortest =
-      std::min({uu, vv, ww, squared_distance(p[1], p[2]), squared_distance(p[1], p[3]), squared_distance(p[2], p[3])});
-  b.volume = det / 6;
-  return b;
+  Tetrahedron_ball ball;
+  ball.center = a + offset;
+  ball.squared_radius = squared_length(offset);
+  ball.squared_shortest =
+      std::min({uu, vv, ww, squared_distance(b, c), squared_distance(b, d), squared_distance(c, d)});
+  ball.volume = det / 6;
+  return ball;
+}
+
+inline Tetrahedron_ball tetrahedron_ball(const Tetrahedron_points& p) {
+  return tetrahedron_ball(p[0], p[1], p[2], p[3]);
 }
 
 }  // namespace pgdr
