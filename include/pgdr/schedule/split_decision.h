@@ -113,16 +113,18 @@ class Split_decision {
     std::vector<Verdict> verdicts(next_.size(), Verdict::untouched);
     tbb::parallel_for(std::uint32_t{0}, next_.size(), [&](std::uint32_t j) { verdicts[j] = judge(j); });
     bool good = true;
+    const std::vector<std::uint8_t> were_split = split_;
     for (std::uint32_t j = 0; j < next_.size(); ++j) {
       if (verdicts[j] == Verdict::untouched || verdicts[j] == Verdict::good) continue;
       good = false;
       const bool for_good = verdicts[j] == Verdict::coarse;
       if (!for_good) make_room(j);
       const std::uint32_t p = parents_[j];
-      if (split_[p] || vetoed_[p]) {
+      if (were_split[p]) {
         veto(p, for_good);
         continue;
       }
+      // It stays as it is: the smaller leaves beside it are what it cannot stand.
       for (const std::uint32_t n : leaves_[p].touching)
         if (split_[n] && next_edge(n) < leaves_[p].shortest) veto(n, for_good);
     }
