@@ -80,23 +80,36 @@ class Split_decision {
 
   /// Larger leaves beside a candidate have to be split with it; where one is vetoed, so is the candidate.
   void close_under_balance() {
-    if (vetoed_.empty()) vetoed_.resize(octree_.size(), 0);
-    bool changed = true;
+    if (vetoed_.empty()) {
+      vetoed_.resize(octree_.size(), 0);
+      nominated_ = split_;
+    }
+    while (!try_to_balance()) {
+    }
+  }
+
+  /// Starts from the beginning, since what was added for the sake of a leaf that is vetoed by now is not needed any
+  /// more. False if something else was vetoed.
+  bool try_to_balance() {
+    for (std::uint32_t i = 0; i < octree_.size(); ++i) split_[i] = nominated_[i] && !vetoed_[i];
+    bool changed = true, good = true;
     while (changed) {
       changed = false;
       for (std::uint32_t i = 0; i < octree_.size(); ++i) {
         if (!split_[i]) continue;
         for (const std::uint32_t n : leaves_[i].touching) {
           if (octree_[n].level >= octree_[i].level || split_[n]) continue;
-          changed = true;
           if (vetoed_[n]) {
             veto(i, false);
+            good = false;
             break;
           }
           split_[n] = 1;
+          changed = true;
         }
       }
     }
+    return good;
   }
 
   void veto(std::uint32_t i, bool for_good) {
@@ -184,6 +197,7 @@ class Split_decision {
   const Linear_octree_3& octree_;
   std::vector<Leaf>& leaves_;
   std::vector<std::uint8_t> split_;
+  std::vector<std::uint8_t> nominated_;
   std::vector<std::uint8_t> vetoed_;
   std::vector<std::uint32_t> far_reaching_;
   Linear_octree_3 next_;
