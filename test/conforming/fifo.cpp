@@ -14,7 +14,7 @@ TEST_CASE("A queue gives back in order what was put in", "[conforming]") {
   pgdr::Fifo<std::uint32_t> queue;
   std::deque<std::uint32_t> expected;
   pgdr_test::Random random(31);
-  for (std::uint32_t k = 0; k < 60000; ++k) {
+  for (std::uint32_t k = 0; k < 50000; ++k) {
     const bool grows = k / 10000 % 2 == 0;
     if (expected.empty() || random.below(10) < (grows ? 7u : 3u)) {
       queue.push(k);
