@@ -31,7 +31,7 @@ class Complex_audit {
   std::string sheets() const {
     std::vector<double> area(complex_.domain().facets.size(), 0);
     for (std::uint32_t t = 0; t < complex_.subfacet_slots(); ++t) {
-      if (!complex_.subfacet(t).alive) continue;
+      if (!complex_.subfacet(t).alive()) continue;
       for (std::size_t i = 0; i < 3; ++i)
         if (const std::string fault = edge_of_subfacet(t, i); !fault.empty()) return fault;
       const auto& s = complex_.subfacet(t);
@@ -42,7 +42,7 @@ class Complex_audit {
           triangle_area(position(s.vertices[0]), position(s.vertices[1]), position(s.vertices[2]));
     }
     for (std::uint32_t s = 0; s < complex_.subsegment_slots(); ++s)
-      if (complex_.subsegment(s).alive)
+      if (complex_.subsegment(s).alive())
         if (const std::string fault = links_of_subsegment(s); !fault.empty()) return fault;
     return areas(area);
   }
@@ -50,10 +50,10 @@ class Complex_audit {
   /// Marks: what is present is marked on all its cells, and what is marked is present.
   std::string marks() const {
     for (std::uint32_t s = 0; s < complex_.subsegment_slots(); ++s)
-      if (complex_.subsegment(s).alive && complex_.subsegment(s).present && !is_marked_subsegment(s))
+      if (complex_.subsegment(s).alive() && complex_.subsegment(s).present && !is_marked_subsegment(s))
         return name("subsegment", s) + " is present but not marked on all cells around it";
     for (std::uint32_t t = 0; t < complex_.subfacet_slots(); ++t)
-      if (complex_.subfacet(t).alive && complex_.subfacet(t).present && !is_marked_subfacet(t))
+      if (complex_.subfacet(t).alive() && complex_.subfacet(t).present && !is_marked_subfacet(t))
         return name("subfacet", t) + " is present but not marked on both of its cells";
     for (auto c = tr_.all_cells_begin(); c != tr_.all_cells_end(); ++c)
       if (const std::string fault = marks_of_cell(c); !fault.empty()) return fault;
@@ -64,9 +64,9 @@ class Complex_audit {
   std::size_t missing() const {
     std::size_t n = 0;
     for (std::uint32_t s = 0; s < complex_.subsegment_slots(); ++s)
-      n += complex_.subsegment(s).alive && !complex_.subsegment(s).present;
+      n += complex_.subsegment(s).alive() && !complex_.subsegment(s).present;
     for (std::uint32_t t = 0; t < complex_.subfacet_slots(); ++t)
-      n += complex_.subfacet(t).alive && !complex_.subfacet(t).present;
+      n += complex_.subfacet(t).alive() && !complex_.subfacet(t).present;
     return n;
   }
 
@@ -86,7 +86,7 @@ class Complex_audit {
     if (n == Complex::none) return name("subfacet", t) + " has an open edge";
     if (n & Complex::subsegment_bit) {
       const std::uint32_t slot = n & ~Complex::subsegment_bit;
-      if (slot >= complex_.subsegment_slots() || !complex_.subsegment(slot).alive)
+      if (slot >= complex_.subsegment_slots() || !complex_.subsegment(slot).alive())
         return name("subfacet", t) + " borders on a dead subsegment";
       const auto& e = complex_.subsegment(slot);
       if (!(e.vertices[0] == u && e.vertices[1] == w) && !(e.vertices[0] == w && e.vertices[1] == u))
@@ -95,7 +95,7 @@ class Complex_audit {
         return name("subfacet", t) + " is not once in the list of its subsegment";
       return {};
     }
-    if (n >= complex_.subfacet_slots() || !complex_.subfacet(n).alive)
+    if (n >= complex_.subfacet_slots() || !complex_.subfacet(n).alive())
       return name("subfacet", t) + " borders on a dead subfacet";
     const auto& o = complex_.subfacet(n);
     if (o.facet != s.facet) return name("subfacet", t) + " borders on a subfacet of another facet";
@@ -114,7 +114,7 @@ class Complex_audit {
       if (!complex_.is_on_segment(v, e.segment)) return name("subsegment", s) + " ends off its segment";
     std::set<pgdr::Index> facets;
     for (const std::uint32_t t : e.subfacets) {
-      if (!complex_.subfacet(t).alive) return name("subsegment", s) + " lists a dead subfacet";
+      if (!complex_.subfacet(t).alive()) return name("subsegment", s) + " lists a dead subfacet";
       if (complex_.edge_with_neighbor(t, s | Complex::subsegment_bit) < 0)
         return name("subsegment", s) + " lists a subfacet that does not border on it";
       facets.insert(complex_.subfacet(t).facet);
@@ -167,7 +167,7 @@ class Complex_audit {
     for (int i = 0; i < 4; ++i) {
       const std::uint32_t t = c->subfacet(i);
       if (t == Complex::none) continue;
-      if (t >= complex_.subfacet_slots() || !complex_.subfacet(t).alive || !complex_.subfacet(t).present)
+      if (t >= complex_.subfacet_slots() || !complex_.subfacet(t).alive() || !complex_.subfacet(t).present)
         return "a cell is marked with the dead or missing " + name("subfacet", t);
       for (const Vertex_handle v : complex_.subfacet(t).vertices)
         if (!c->has_vertex(v) || c->index(v) == i)
@@ -179,7 +179,7 @@ class Complex_audit {
         const std::uint32_t s = tr_.is_infinite(c->vertex(i)) || tr_.is_infinite(c->vertex(j))
                                     ? Complex::none
                                     : complex_.find_subsegment(c->vertex(i), c->vertex(j));
-        if (s == Complex::none || !complex_.subsegment(s).alive || !complex_.subsegment(s).present)
+        if (s == Complex::none || !complex_.subsegment(s).alive() || !complex_.subsegment(s).present)
           return "a cell has an edge marked as subsegment that is none";
       }
     return {};

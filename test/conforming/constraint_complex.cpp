@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/conforming/constraint_complex_3.h>
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/initial_complex_3.h>
@@ -24,13 +26,26 @@ using Complex = pgdr::Constraint_complex_3<Tr>;
 struct Initial {
   explicit Initial(const Plc& plc) : domain(pgdr::make_domain_3(plc)), complex(domain) {
     handles = pgdr::insert_domain_vertices(tr, domain);
-    pgdr::build_complex(complex, handles);
+    pgdr::build_complex(complex, pool, handles);
   }
   std::string fault() const { return Complex_audit<Tr>(tr, complex).sheets(); }
+  std::size_t subsegments() const {
+    std::size_t n = 0;
+    for (std::uint32_t s = 0; s < complex.subsegment_slots(); ++s) n += complex.subsegment(s).alive();
+    return n;
+  }
+  /// Slots are given out in batches: not every one is in use.
+  std::vector<std::uint32_t> subfacets() const {
+    std::vector<std::uint32_t> alive;
+    for (std::uint32_t t = 0; t < complex.subfacet_slots(); ++t)
+      if (complex.subfacet(t).alive()) alive.push_back(t);
+    return alive;
+  }
 
   pgdr::Domain_3<K> domain;
   Tr tr;
   Complex complex;
+  Complex::Pool pool;
   std::vector<Tr::Vertex_handle> handles;
 };
 
@@ -40,10 +55,10 @@ TEST_CASE("The complex of a PLC has its segments and facets", "[conforming]") {
   for (const Plc& plc : {box(), tilted(box()), tilted(gridded_box(5)), cylinder(12)}) {
     const Initial initial(plc);
     CHECK(initial.fault() == "");
-    CHECK(initial.complex.subsegment_slots() == initial.domain.segments.size());
+    CHECK(initial.subsegments() == initial.domain.segments.size());
     std::size_t triangles = 0;
     for (const auto& f : initial.domain.facets) triangles += f.triangles.size();
-    CHECK(initial.complex.subfacet_slots() == triangles);
+    CHECK(initial.subfacets().size() == triangles);
     for (pgdr::Index s = 0; s < initial.domain.segments.size(); ++s) {
       const auto& ends = initial.domain.segments[s].vertices;
       const auto slot = initial.complex.find_subsegment(initial.handles[ends[0]], initial.handles[ends[1]]);
@@ -86,7 +101,7 @@ TEST_CASE("Halving a subsegment moves its links to the halves", "[conforming]") 
   auto v = initial.tr.insert(middle(a, b));
   v->set_feature(1, segment);
   CHECK(complex.is_live_subsegment(old));
-  const auto halves = complex.halve_subsegment(3, v);
+  const auto halves = complex.halve_subsegment(initial.pool, 3, v);
   CHECK(complex.find_subsegment(a, b) == Complex::none);
   CHECK(complex.find_subsegment(a, v) == halves[0]);
   CHECK(complex.find_subsegment(v, a) == halves[0]);
@@ -102,12 +117,12 @@ TEST_CASE("Halving a subsegment moves its links to the halves", "[conforming]") 
   for (pgdr::Index f = 0; f < initial.domain.facets.size(); ++f) facets += complex.is_on_facet(v, f);
   CHECK(facets == 2);
 
-  complex.remove_subsegment(3);
+  complex.remove_subsegment(initial.pool, 3);
   CHECK(!complex.is_live_subsegment(old));
   // Its slot is used again, but is not mistaken for the old one.
   const auto w = initial.tr.insert(middle(a, v));
   w->set_feature(1, segment);
-  const auto quarters = complex.halve_subsegment(halves[0], w);
+  const auto quarters = complex.halve_subsegment(initial.pool, halves[0], w);
   CHECK(quarters[0] == 3);
   CHECK(complex.is_live_subsegment(complex.subsegment_id(3)));
   CHECK(!complex.is_live_subsegment(old));
@@ -120,10 +135,11 @@ TEST_CASE("Halving a subsegment moves its links to the halves", "[conforming]") 
 TEST_CASE("Flips keep the neighbours of subfacets in order", "[conforming]") {
   Initial initial(tilted(gridded_box(8)));
   Complex& complex = initial.complex;
+  const auto subfacets = initial.subfacets();
   Random random(21);
   int flips = 0;
   for (int k = 0; k < 3000; ++k) {
-    const std::uint32_t t = random.below(static_cast<std::uint32_t>(complex.subfacet_slots()));
+    const std::uint32_t t = subfacets[random.below(static_cast<std::uint32_t>(subfacets.size()))];
     const std::size_t i = random.below(3);
     const std::uint32_t u = complex.subfacet(t).neighbors[i];
     if (u & Complex::subsegment_bit) continue;
@@ -171,8 +187,8 @@ TEST_CASE("The audit of a complex notices faults", "[conforming]") {
           c.subfacet(t).neighbors[i] = t;
         }) != "");
   CHECK(spoiled([](Complex& c) { c.subsegment(2).subfacets.pop_back(); }) != "");
-  CHECK(spoiled([](Complex& c) { c.subsegment(2).alive = false; }) != "");
-  CHECK(spoiled([](Complex& c) { c.subfacet(2).alive = false; }) != "");
+  CHECK(spoiled([](Complex& c) { c.subsegment(2).version.advance(); }) != "");
+  CHECK(spoiled([](Complex& c) { c.subfacet(2).version.advance(); }) != "");
   CHECK(spoiled([](Complex& c) { std::swap(c.subfacet(4).vertices[0], c.subfacet(4).vertices[1]); }) != "");
   CHECK(spoiled([](Complex& c) { c.subsegment(1).vertices[0] = c.subsegment(1).vertices[1]; }) != "");
 }

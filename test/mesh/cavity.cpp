@@ -78,7 +78,8 @@ void shuffle(std::vector<T>& items, std::uint64_t seed) {
 
 /// A triangulation of the box and `points`, all but the box inserted by `Cavity_3`.
 void insert(Tr& tr, const Points& points) {
-  for (const Point& p : box_corners()) tr.insert(p);
+  Vertex_handle on_hull;
+  for (const Point& p : box_corners()) on_hull = tr.insert(p);
   pgdr::Cavity_3<Tr> cavity(tr);
   Cell_handle hint = tr.infinite_cell();
   for (const Point& p : points) {
@@ -89,6 +90,7 @@ void insert(Tr& tr, const Points& points) {
     REQUIRE(cavity.find(p, c));
     hint = cavity.commit(p)->cell();
   }
+  tr.restore_infinite_cell(on_hull);
 }
 
 std::array<Vertex_handle, 4> vertices(Cell_handle c) {

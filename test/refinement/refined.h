@@ -33,6 +33,26 @@ inline std::string failures(const std::vector<pgdr::Check_line>& lines) {
   return s;
 }
 
+/// Whether two meshes are the same, number by number.
+inline bool equal(const pgdr::Indexed_mesh_3& a, const pgdr::Indexed_mesh_3& b) {
+  return a.points == b.points && a.point_references == b.point_references &&
+         a.point_dimensions == b.point_dimensions && a.edges == b.edges &&
+         a.edge_references == b.edge_references && a.triangles == b.triangles &&
+         a.triangle_references == b.triangle_references && a.tetrahedra == b.tetrahedra &&
+         a.tetrahedron_references == b.tetrahedron_references && a.exempt == b.exempt;
+}
+
+/// What the checker minds about a mesh that a limit stopped. Where pieces of the input are not in the mesh yet,
+/// neither are they among its triangles, and it cannot be held against the input.
+inline std::string valid_when_stopped(const Mesh& mesh, const pgdr::Indexed_mesh_3& indexed) {
+  pgdr::Check_options any_ratio;
+  any_ratio.radius_edge_ratio = 1e9;
+  const bool whole = mesh.statistics().unrecovered == 0;
+  auto lines = pgdr::check_mesh(indexed, whole ? &mesh.domain() : nullptr, any_ratio);
+  if (!whole) std::erase_if(lines, [](const auto& l) { return l.property == "boundary"; });
+  return failures(lines);
+}
+
 inline std::set<std::int32_t> distinct(const std::vector<std::int32_t>& references) {
   return {references.begin(), references.end()};
 }

@@ -242,7 +242,7 @@ class Delaunay_leaf_refiner_3 {
       const double size = criteria_.size_at(tetrahedron_ball(points(id.cell)).center);
       const double f = static_cast<double>(id.radius) / size;
       e.insertions += static_cast<double>(std::min(step, n - k)) * std::max(1.0, std::min(f * f * f, 1e12));
-      e.smallest_size = std::min(e.smallest_size, size);
+      e.largest_size = std::max(e.largest_size, size);
     }
     return e;
   }

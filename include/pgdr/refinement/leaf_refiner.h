@@ -38,7 +38,7 @@ struct Drain_result {
 /// What the deferred elements of a worklist ask for, roughly.
 struct Work_estimate {
   double insertions = 0;  ///< points
-  double smallest_size = std::numeric_limits<double>::infinity();  ///< value of the sizing field among them
+  double largest_size = 0;  ///< value of the sizing field among them
 };
 
 /// What a scan of the elements around a box found.

@@ -73,8 +73,8 @@ class Split_decision {
       leaf.work.measure_deferred();
       if (leaf.final || leaf.work.deferred() == 0) return;
       const Work_estimate e = engine_.estimate(leaf.work);
-      const bool small_enough =
-          e.smallest_size >= zone_target(leaf.shortest) && e.smallest_size <= leaf.edge;
+      // Fine elements grow to about the sizing field, and children could not stand larger ones than the target.
+      const bool small_enough = e.largest_size >= zone_target(leaf.shortest) && e.largest_size <= leaf.edge;
       if (e.insertions < (octree_.size() == 1 ? least_work_of_all : least_work) || small_enough || octree_[i].level + 1 >= Octree_key::max_level) {
         leaf.final = true;
         ended[i] = 1;
@@ -89,23 +89,36 @@ class Split_decision {
 
   /// Larger leaves beside a candidate have to be split with it; where one is vetoed, so is the candidate.
   void close_under_balance() {
-    if (vetoed_.empty()) vetoed_.resize(octree_.size(), 0);
-    bool changed = true;
+    if (vetoed_.empty()) {
+      vetoed_.resize(octree_.size(), 0);
+      nominated_ = split_;
+    }
+    while (!try_to_balance()) {
+    }
+  }
+
+  /// Starts from the beginning, since what was added for the sake of a leaf that is vetoed by now is not needed any
+  /// more. False if something else was vetoed.
+  bool try_to_balance() {
+    for (std::uint32_t i = 0; i < octree_.size(); ++i) split_[i] = nominated_[i] && !vetoed_[i];
+    bool changed = true, good = true;
     while (changed) {
       changed = false;
       for (std::uint32_t i = 0; i < octree_.size(); ++i) {
         if (!split_[i]) continue;
         for (const std::uint32_t n : leaves_[i].touching) {
           if (octree_[n].level >= octree_[i].level || split_[n]) continue;
-          changed = true;
           if (vetoed_[n]) {
             veto(i, false);
+            good = false;
             break;
           }
           split_[n] = 1;
+          changed = true;
         }
       }
     }
+    return good;
   }
 
   void veto(std::uint32_t i, bool for_good) {
@@ -121,18 +134,18 @@ class Split_decision {
   bool check() {
     std::vector<Judgement> before = std::move(judged_);
     judged_.assign(next_.size(), {});
-    tbb::parallel_for(std::uint32_t{0}, next_.size(), [&](std::uint32_t j) {
-      // Most leaves are the same as in the attempt before.
-      const std::uint32_t i = before.empty() ? 0 : last_.find(next_[j]);
-      if (!before.empty() && last_[i] == next_[j] && before[i].verdict != Verdict::untouched &&
-          before[i].shortest == next_.shortest_touching_edge(j))
-        judged_[j] = before[i];
-      else
-        judged_[j] = judge(j);
+    std::vector<std::uint32_t> first(octree_.size() + 1, 0);
+    for (std::uint32_t i = 0; i < octree_.size(); ++i) first[i + 1] = first[i] + (split_[i] ? 8 : 1);
+    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+      // One child that cannot be is enough.
+      for (std::uint32_t j = first[i]; j < first[i + 1]; ++j) {
+        judged_[j] = judge_again(j, before);
+        if (judged_[j].verdict == Verdict::pending || judged_[j].verdict == Verdict::coarse) break;
+      }
     });
     last_ = next_;
-    const std::vector<std::uint8_t> split = split_;
     bool good = true;
+    const std::vector<std::uint8_t> were_split = split_;
     for (std::uint32_t j = 0; j < next_.size(); ++j) {
       const Verdict verdict = judged_[j].verdict;
       if (verdict == Verdict::untouched || verdict == Verdict::good) continue;
@@ -140,14 +153,26 @@ class Split_decision {
       const bool for_good = verdict == Verdict::coarse;
       if (!for_good) make_room(j);
       const std::uint32_t p = parents_[j];
-      if (split[p]) {
+      if (were_split[p]) {
         veto(p, for_good);
         continue;
       }
+      // It stays as it is: the smaller leaves beside it are what it cannot stand.
       for (const std::uint32_t n : leaves_[p].touching)
-        if (split[n] && 0.5 * leaves_[n].edge < leaves_[p].shortest) veto(n, for_good);
+        if (were_split[n] && 0.5 * leaves_[n].edge < leaves_[p].shortest) veto(n, for_good);
     }
     return good;
+  }
+
+  /// Most leaves are the same as in the attempt before.
+  Judgement judge_again(std::uint32_t j, const std::vector<Judgement>& before) const {
+    if (!before.empty()) {
+      const std::uint32_t i = last_.find(next_[j]);
+      if (last_[i] == next_[j] && before[i].verdict != Verdict::untouched &&
+          before[i].shortest == next_.shortest_touching_edge(j))
+        return before[i];
+    }
+    return judge(j);
   }
 
   Judgement judge(std::uint32_t j) const {
@@ -208,6 +233,7 @@ class Split_decision {
   const Linear_octree_3& octree_;
   std::vector<Leaf>& leaves_;
   std::vector<std::uint8_t> split_;
+  std::vector<std::uint8_t> nominated_;
   std::vector<std::uint8_t> vetoed_;
   std::vector<std::uint32_t> far_reaching_;
   Linear_octree_3 next_;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_TEST_SCHEDULE_LIST_ENGINE_H
+#define PGDR_TEST_SCHEDULE_LIST_ENGINE_H
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <pgdr/refinement/leaf_refiner.h>
+
+namespace pgdr_test {
+
+/// As much of a refiner as decisions need: worklists that say what a test wants them to say.
+struct List_engine {
+  struct Parcel {
+    pgdr::Vec_3 at;
+  };
+  struct Worker {};
+  struct Worklist {
+    bool has_work() const { return false; }
+    std::size_t active() const { return 0; }
+    std::size_t deferred() const { return estimate.insertions > 0; }
+    bool is_torn() const { return false; }
+    double coarsest() const { return coarsest_radius; }
+    void measure_deferred() {}
+    double measured_deferred() const { return deferred_radius; }
+    std::vector<Parcel>& outgoing() { return parcels; }
+
+    pgdr::Work_estimate estimate;
+    double coarsest_radius = 0, deferred_radius = 0;
+    std::vector<Parcel> parcels;
+  };
+
+  pgdr::Drain_result drain(Worker&, const pgdr::Leaf_task&, Worklist&) { return {}; }
+  void receive(Worklist&, Parcel&&, double, double) const {}
+  void activate(Worklist&, double, double) const {}
+  pgdr::Work_estimate estimate(const Worklist& list) const { return list.estimate; }
+  bool is_finer(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound, const Worklist&) const {
+    return finer(box, hole, bound);
+  }
+
+  /// Whether all elements that meet a box, but not those inside a hole in it, are smaller than a bound.
+  std::function<bool(const pgdr::Region_3&, const pgdr::Region_3&, double)> finer =
+      [](const pgdr::Region_3&, const pgdr::Region_3&, double) { return true; };
+};
+
+static_assert(pgdr::LeafRefiner<List_engine>);
+
+}  // namespace pgdr_test
+
+#endif
