@@ -150,6 +150,7 @@ class Delaunay_leaf_refiner_3 {
       case Kind::errand: list.errands_.push(std::move(parcel.errand)); break;
       case Kind::retry: list.retries_.push(std::move(parcel.errand)); break;
       case Kind::coarse: list.note_coarse(static_cast<double>(parcel.cell.radius)); break;
+      case Kind::refused: list.note_refused(parcel.at, parcel.cell); break;
     }
   }
 
@@ -196,8 +197,11 @@ class Delaunay_leaf_refiner_3 {
     while (!list.active_.empty()) send(list.active_.pop());
     for (const Cell_id& id : list.deferred_) send(id);
     for (const Cell_id& id : list.outside_) send(id);
+    for (const auto& [at, id] : list.refused_)
+      if (id.is_live()) sink(Parcel{at, Kind::refused, id, nullptr});
     list.deferred_ = {};
     list.outside_ = {};
+    list.refused_ = {};
     list.release_memory();
   }
 
@@ -398,8 +402,10 @@ class Delaunay_leaf_refiner_3 {
                                 {c, c->generation(), upwards * static_cast<float>(radius)}, nullptr});
   }
 
-  void give_up(const Tetrahedron_points& corners, Worklist& list, Drain_result& result) const {
-    list.note_refused(enclosing_radius(corners));
+  void give_up(const Cell_id& id, const Vec_3& at, const Tetrahedron_points& corners, Worklist& list,
+               Drain_result& result) const {
+    const float m = upwards * static_cast<float>(enclosing_radius(corners));
+    list.note_refused(at, {id.cell, id.generation, m});
     ++result.refused;
   }
 
@@ -418,12 +424,12 @@ class Delaunay_leaf_refiner_3 {
     Cavity_3<Tr>& cavity = w.features_.cavity();
     const bool found = outside ? cavity.find(p, id.cell, [&](Cell_handle c) { return !encroaches_subfacet_of(c, p); })
                                : cavity.find(p, id.cell) || find_with_exact_center(w, id.cell, corners);
-    if (!found) return give_up(corners, list, result);
+    if (!found) return give_up(id, center, corners, list, result);
     w.features_.features().gather(complex_, cavity);
     const bool blocked = collect_obstacles(w, p);
     if (outside && (blocked || is_crowded(w, center))) {
       cavity.abandon();
-      return give_up(corners, list, result);
+      return give_up(id, center, corners, list, result);
     }
     if (blocked) {
       cavity.abandon();
@@ -431,7 +437,7 @@ class Delaunay_leaf_refiner_3 {
         case Split_outcome::inserted:
           if (id.is_live()) list.active_.push(id);
           break;
-        case Split_outcome::refused: give_up(corners, list, result); break;
+        case Split_outcome::refused: give_up(id, center, corners, list, result); break;
         case Split_outcome::elsewhere: break;  // travels with the errand
       }
       return;

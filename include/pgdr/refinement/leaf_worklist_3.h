@@ -24,7 +24,8 @@ struct Leaf_parcel_3 {
     poor,    ///< `cell`, with its Steiner point at `at`
     errand,  ///< a feature with its split point at `at`
     retry,   ///< a tetrahedron that comes home from an errand
-    coarse   ///< no work: an element of radius `cell.radius` that nobody intends to refine
+    coarse,  ///< no work: an element of radius `cell.radius` that is fine as it is
+    refused  ///< no work: one that was given up
   };
   Vec_3 at;
   Kind kind = Kind::poor;
@@ -55,9 +56,13 @@ class Leaf_worklist_3 {
 
   /// Upper bound of m, over all elements near the leaf that are not waiting to be refined: fine ones, and those that
   /// were refused.
-  double coarsest() const { return std::max(coarsest_, refused_); }
+  double coarsest() const { return std::max(coarsest_, largest_refused_); }
   void note_coarse(double radius) { coarsest_ = std::max(coarsest_, radius); }
-  void note_refused(double radius) { refused_ = std::max(refused_, radius); }
+  /// An element that was given up, with its Steiner point and its m as radius.
+  void note_refused(const Vec_3& at, const Cell_id& id) {
+    refused_.emplace_back(at, id);
+    largest_refused_ = std::max(largest_refused_, static_cast<double>(id.radius));
+  }
   /// After a scan has measured the fine ones.
   void reset_coarsest(double radius) { coarsest_ = radius; }
   /// The largest radius that is deferred, as of the last `measure_deferred`.
@@ -85,7 +90,6 @@ class Leaf_worklist_3 {
   /// What a child of this leaf starts from.
   void inherit(const Leaf_worklist_3& parent) {
     coarsest_ = parent.coarsest_;
-    refused_ = parent.refused_;
     anchor_ = parent.anchor_;
   }
 
@@ -114,7 +118,8 @@ class Leaf_worklist_3 {
   std::vector<Parcel> outgoing_;
   Vertex_handle anchor_;
   double coarsest_ = 0;
-  double refused_ = 0;
+  std::vector<std::pair<Vec_3, Cell_id>> refused_;
+  double largest_refused_ = 0;
   double largest_deferred_ = 0;
   bool torn_ = false;
 };
