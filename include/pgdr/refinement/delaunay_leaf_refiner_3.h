@@ -15,8 +15,10 @@
 #include <pgdr/conforming/subdomains_3.h>
 #include <pgdr/refinement/cell_scan_3.h>
 #include <pgdr/refinement/enclosing_ball.h>
+#include <pgdr/refinement/hull_box_3.h>
 #include <pgdr/refinement/leaf_refiner.h>
 #include <pgdr/refinement/leaf_worklist_3.h>
+#include <pgdr/refinement/obstacles_3.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
@@ -55,29 +57,25 @@ class Delaunay_leaf_refiner_3 {
     Features features_;
     Zone_guard_3<Tr> guard_;
     Leaf_task task_;
-    std::vector<Piece_id> segments_in_the_way_;
-    std::vector<Piece_id> facets_in_the_way_;
+    Obstacles_3<Tr> obstacles_;
   };
 
   Delaunay_leaf_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, const Criteria& criteria,
                           double min_edge_length)
-      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length) {
-    measure_hull();
-  }
+      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length), hull_(tr) {}
 
   std::unique_ptr<Worker> make_worker() const {
     return std::make_unique<Worker>(tr_, complex_, acute_, min_edge_length_);
   }
 
-  /// The bounding box of all vertices, which is the convex hull, and one of its corners.
-  const Region_3& hull() const { return hull_; }
-  Vertex_handle corner() const { return corner_; }
+  /// The convex hull of all that is refined.
+  const Region_3& hull() const { return hull_.box(); }
 
   /// A worklist with every poor tetrahedron of the domain, for a leaf that is everything. \pre no other thread works
   Worklist everything(Worker& w) {
     Worklist list;
     open(w, Leaf_task{}, list);
-    list.set_anchor(corner_);
+    list.set_anchor(hull_.corner());
     w.task_.target = std::numeric_limits<double>::infinity();
     for (auto c = tr_.finite_cells_begin(); c != tr_.finite_cells_end(); ++c) classify(w, c, list);
     close(w, list);
@@ -126,7 +124,7 @@ class Delaunay_leaf_refiner_3 {
         continue;
       }
       if (list.active_.empty()) break;
-      prefetch(list.active_);
+      list.prefetch();
       const Cell_id id = list.active_.pop();
       if (id.is_live()) refine(w, id, {}, list, result);
     }
@@ -256,7 +254,7 @@ class Delaunay_leaf_refiner_3 {
     Scan_result result;
     Cell_scan_3<Tr> cells(tr_);
     result.finer = cells.visit(
-        nearest_in_hull(box), list.anchor(), [&](Cell_handle c) { return boxes_meet(points(c), box); },
+        hull_.nearest(box), list.anchor(), [&](Cell_handle c) { return boxes_meet(points(c), box); },
         [&](Cell_handle c) {
           // Most tetrahedra are small enough by what is known of their balls.
           const double known = c->ball().is_known() ? static_cast<double>(c->ball().squared_outside)
@@ -282,7 +280,7 @@ class Delaunay_leaf_refiner_3 {
       const double d = distance_to_box(b.center, box);
       return d * d < b.squared_radius;
     };
-    return scan.visit(nearest_in_hull(box), list.anchor(), meets, [&](Cell_handle c) {
+    return scan.visit(hull_.nearest(box), list.anchor(), meets, [&](Cell_handle c) {
       return !meets(c) || tetrahedron_ball(points(c)).squared_radius < bound * bound * (1 - 1e-8);
     });
   }
@@ -348,21 +346,6 @@ class Delaunay_leaf_refiner_3 {
     list.outgoing_.push_back({home, Parcel::Kind::retry, {}, std::move(errand)});
   }
 
-  /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
-  static void prefetch(const Fifo<Cell_id>& queue) {
-    constexpr std::size_t far = 16, near = 8;
-    if (queue.size() <= far) return;
-    const char* next = reinterpret_cast<const char*>(&*queue[far].cell);
-    __builtin_prefetch(next);
-    __builtin_prefetch(next + 64);
-    if (!queue[near].is_live()) return;
-    for (int i = 0; i < 4; ++i) {
-      __builtin_prefetch(&*queue[near].cell->vertex(i));
-      __builtin_prefetch(&*queue[near].cell->neighbor(i));
-      __builtin_prefetch(reinterpret_cast<const char*>(&*queue[near].cell->neighbor(i)) + 64);
-    }
-  }
-
   /// Puts a tetrahedron on the worklist if it is poor; flat ones on a facet become requests to split that facet.
   void classify(Worker& w, Cell_handle c, Worklist& list) {
     if (c->subdomain() == 0) return classify_outside(w, c, list);
@@ -415,7 +398,7 @@ class Delaunay_leaf_refiner_3 {
     if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
     const Tetrahedron_points corners = points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    const Vec_3 center = outside ? clamp_to_hull(ball.center) : into_hull(ball.center, corners);
+    const Vec_3 center = outside ? hull_.clamp(ball.center) : hull_.pull_in(ball.center, corners);
     if (!w.task_.region.contains(center)) {
       list.outgoing_.push_back({center, Parcel::Kind::poor, id, nullptr});
       return;
@@ -426,7 +409,7 @@ class Delaunay_leaf_refiner_3 {
                                : cavity.find(p, id.cell) || find_with_exact_center(w, id.cell, corners);
     if (!found) return give_up(id, center, corners, list, result);
     w.features_.features().gather(complex_, cavity);
-    const bool blocked = collect_obstacles(w, p);
+    const bool blocked = w.obstacles_.collect(complex_, w.features_.features(), p);
     if (outside && (blocked || is_crowded(w, center))) {
       cavity.abandon();
       return give_up(id, center, corners, list, result);
@@ -460,54 +443,11 @@ class Delaunay_leaf_refiner_3 {
     if (b.is_known()) {
       const Vec_3 p{static_cast<double>(b.center[0]), static_cast<double>(b.center[1]),
                     static_cast<double>(b.center[2])};
-      if (hull_.contains_closed(p)) return p;
+      if (hull_.box().contains_closed(p)) return p;
     }
     const Tetrahedron_points corners = points(c);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    return c->subdomain() == 0 ? clamp_to_hull(ball.center) : into_hull(ball.center, corners);
-  }
-
-  void measure_hull() {
-    bool first = true;
-    for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) {
-      const Vec_3 p = position(Vertex_handle(v));
-      bool lowest = true;
-      for (int i = 0; i < 3; ++i) {
-        lowest = lowest && (first || p[i] <= hull_.lower[i]);
-        hull_.lower[i] = first ? p[i] : std::min(hull_.lower[i], p[i]);
-        hull_.upper[i] = first ? p[i] : std::max(hull_.upper[i], p[i]);
-      }
-      if (lowest) corner_ = v;
-      first = false;
-    }
-  }
-
-  Vec_3 clamp_to_hull(Vec_3 p) const {
-    for (int i = 0; i < 3; ++i) p[i] = std::clamp(p[i], hull_.lower[i], hull_.upper[i]);
-    return p;
-  }
-
-  /// A point of the box in the hull, or the point of the hull that is nearest to it.
-  Vec_3 nearest_in_hull(const Region_3& box) const {
-    Vec_3 p;
-    for (int i = 0; i < 3; ++i) {
-      const double lo = std::max(box.lower[i], hull_.lower[i]), hi = std::min(box.upper[i], hull_.upper[i]);
-      p[i] = std::clamp(0.5 * (lo + hi), hull_.lower[i], hull_.upper[i]);
-    }
-    return p;
-  }
-
-  /// The Steiner point of a ball whose center is outside the hull: where the way from the tetrahedron to the center
-  /// leaves it. Still inside the ball, which is convex.
-  Vec_3 into_hull(const Vec_3& center, const Tetrahedron_points& corners) const {
-    const Vec_3 from = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    double t = 1;
-    for (int i = 0; i < 3; ++i) {
-      if (center[i] < hull_.lower[i]) t = std::min(t, (hull_.lower[i] - from[i]) / (center[i] - from[i]));
-      if (center[i] > hull_.upper[i]) t = std::min(t, (hull_.upper[i] - from[i]) / (center[i] - from[i]));
-    }
-    if (t == 1) return center;
-    return clamp_to_hull(from + t * (center - from));
+    return c->subdomain() == 0 ? hull_.clamp(ball.center) : hull_.pull_in(ball.center, corners);
   }
 
   /// Whether p lies in the equatorial ball of a subfacet on the cell. A point outside the domain does so more often than
@@ -527,37 +467,9 @@ class Delaunay_leaf_refiner_3 {
 
   /// Rounding can put the center of a flat tetrahedron outside of its own ball.
   bool find_with_exact_center(Worker& w, Cell_handle c, const Tetrahedron_points& corners) const {
-    const Vec_3 center = into_hull(exact_tetrahedron_ball(corners).center, corners);
+    const Vec_3 center = hull_.pull_in(exact_tetrahedron_ball(corners).center, corners);
     return w.task_.region.contains(center) &&
            w.features_.cavity().find(Point(center.x, center.y, center.z), c);
-  }
-
-  /// Notes the features that keep p out; subsegments first, and among subfacets first the one below p.
-  bool collect_obstacles(Worker& w, const Point& p) const {
-    w.segments_in_the_way_.clear();
-    w.facets_in_the_way_.clear();
-    for (const auto& f : w.features_.features().subsegments())
-      if (f.deleted || is_encroached(complex_.subsegment(f.slot), p))
-        w.segments_in_the_way_.push_back(complex_.subsegment_id(f.slot));
-    for (const auto& f : w.features_.features().subfacets()) {
-      const auto& t = complex_.subfacet(f.slot);
-      if (!f.deleted && !is_encroached(t, p)) continue;
-      w.facets_in_the_way_.push_back(complex_.subfacet_id(f.slot));
-      if (w.facets_in_the_way_.size() > 1 && is_below(t, p))
-        std::swap(w.facets_in_the_way_.front(), w.facets_in_the_way_.back());
-    }
-    return !w.segments_in_the_way_.empty() || !w.facets_in_the_way_.empty();
-  }
-
-  /// Whether p's projection onto the facet falls into the subfacet.
-  bool is_below(const typename Complex::Subfacet& t, const Point& p) const {
-    const Vec_3 q = complex_.plane(t.facet).project(to_vec(p));
-    const Point foot(q.x, q.y, q.z);
-    for (std::size_t i = 0; i < 3; ++i)
-      if (complex_.orientation(t.facet, t.vertices[i]->point(), t.vertices[(i + 1) % 3]->point(), foot) ==
-          CGAL::NEGATIVE)
-        return false;
-    return true;
   }
 
   /// The length that a split on behalf of a tetrahedron may not go below next to small angles: half its shortest
@@ -582,8 +494,8 @@ class Delaunay_leaf_refiner_3 {
     Features& features = w.features_;
     const Split_guard guard{shortest_allowed(id.cell, ball, corners), corners, 4,
                             4 * std::sqrt(ball.squared_radius)};
-    const bool segments = !w.segments_in_the_way_.empty();
-    for (const Piece_id& piece : segments ? w.segments_in_the_way_ : w.facets_in_the_way_) {
+    const bool segments = w.obstacles_.are_subsegments();
+    for (const Piece_id& piece : w.obstacles_.to_split()) {
       if (std::any_of(refused.begin(), refused.end(), [&](const Piece_id& r) {
             return r.slot == piece.slot && r.version == piece.version;
           }))
@@ -644,8 +556,7 @@ class Delaunay_leaf_refiner_3 {
   const Acute_neighborhood_3& acute_;
   const Criteria& criteria_;
   double min_edge_length_;
-  Region_3 hull_;
-  Vertex_handle corner_;
+  Hull_box_3<Tr> hull_;
   bool collect_coarse_ = false;
 };
 
