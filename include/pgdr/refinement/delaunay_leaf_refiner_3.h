@@ -125,9 +125,10 @@ class Delaunay_leaf_refiner_3 {
         if (errand->cell.is_live()) refine(w, errand->cell, errand->refused, list, result);
         continue;
       }
-      if (list.active_.empty()) break;
-      prefetch(list.active_);
-      const Cell_id id = list.active_.pop();
+      auto& queue = list.active_.empty() ? list.active_outside_ : list.active_;
+      if (queue.empty()) break;
+      prefetch(queue);
+      const Cell_id id = queue.pop();
       if (id.is_live()) refine(w, id, {}, list, result);
     }
     result.inserted += features.inserted() - on_features;
@@ -143,7 +144,7 @@ class Delaunay_leaf_refiner_3 {
         if (parcel.cell.cell->subdomain() != 0)
           list.add_poor(parcel.cell, target);
         else if (static_cast<double>(parcel.cell.radius) > outside_target)
-          list.active_.push(parcel.cell);
+          list.active_outside_.push(parcel.cell);
         else
           list.outside_.push_back(parcel.cell);
         break;
@@ -155,20 +156,20 @@ class Delaunay_leaf_refiner_3 {
 
   /// Deferred elements that are above the target become active.
   void activate(Worklist& list, double target, double outside_target) const {
-    const auto sift = [&list](std::vector<Cell_id>& from, double above) {
+    const auto sift = [](std::vector<Cell_id>& from, double above, Fifo<Cell_id>& to) {
       std::size_t kept = 0;
       for (const Cell_id& id : from) {
         if (!id.is_live()) continue;
         if (static_cast<double>(id.radius) > above)
-          list.active_.push(id);
+          to.push(id);
         else
           from[kept++] = id;
       }
       from.resize(kept);
       if (kept == 0) from.shrink_to_fit();
     };
-    sift(list.deferred_, target);
-    sift(list.outside_, outside_target);
+    sift(list.deferred_, target, list.active_);
+    sift(list.outside_, outside_target, list.active_outside_);
   }
 
   /// Empties a worklist into `sink(Parcel)`. \pre it has no outgoing parcels and no piece is stranded
@@ -194,6 +195,7 @@ class Delaunay_leaf_refiner_3 {
       if (id.is_live()) sink(Parcel{rough_steiner_point(id.cell), Kind::poor, id, nullptr});
     };
     while (!list.active_.empty()) send(list.active_.pop());
+    while (!list.active_outside_.empty()) send(list.active_outside_.pop());
     for (const Cell_id& id : list.deferred_) send(id);
     for (const Cell_id& id : list.outside_) send(id);
     list.deferred_ = {};
@@ -384,7 +386,7 @@ class Delaunay_leaf_refiner_3 {
     const double m = r <= target ? r : enclosing_radius(p);
     const Cell_id id{c, c->generation(), upwards * static_cast<float>(m)};
     if (m > target)
-      list.active_.push(id);
+      list.active_outside_.push(id);
     else if (!w.task_.last)
       list.outside_.push_back(id);  // smaller leaves may come
     else
@@ -409,7 +411,7 @@ class Delaunay_leaf_refiner_3 {
     if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
     const Tetrahedron_points corners = points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    const Vec_3 center = outside ? clamp_to_hull(ball.center) : into_hull(ball.center, corners);
+    const Vec_3 center = outside ? onto_hull(ball) : into_hull(ball.center, corners);
     if (!w.task_.region.contains(center)) {
       list.outgoing_.push_back({center, Parcel::Kind::poor, id, nullptr});
       return;
@@ -458,7 +460,7 @@ class Delaunay_leaf_refiner_3 {
     }
     const Tetrahedron_points corners = points(c);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    return c->subdomain() == 0 ? clamp_to_hull(ball.center) : into_hull(ball.center, corners);
+    return c->subdomain() == 0 ? onto_hull(ball) : into_hull(ball.center, corners);
   }
 
   void measure_hull() {
@@ -478,6 +480,22 @@ class Delaunay_leaf_refiner_3 {
 
   Vec_3 clamp_to_hull(Vec_3 p) const {
     for (int i = 0; i < 3; ++i) p[i] = std::clamp(p[i], hull_.lower[i], hull_.upper[i]);
+    return p;
+  }
+
+  /// The Steiner point of a tetrahedron outside the domain: its circumcenter, or where that is beyond the hull or close
+  /// to it, a point of the hull's faces, edges or corners. So no vertex comes so close to the hull that a flat
+  /// tetrahedron in between could not be split. What the circumball has in common with the hull fits into a ball of
+  /// radius rho around the nearest point of the hull; the point is no farther from there than 0.58 rho.
+  Vec_3 onto_hull(const Tetrahedron_ball& ball) const {
+    Vec_3 p = clamp_to_hull(ball.center);
+    const double rho = std::sqrt(std::max(0.0, ball.squared_radius - squared_distance(p, ball.center)));
+    for (int i = 0; i < 3; ++i) {
+      if (p[i] - hull_.lower[i] < rho / 3)
+        p[i] = hull_.lower[i];
+      else if (hull_.upper[i] - p[i] < rho / 3)
+        p[i] = hull_.upper[i];
+    }
     return p;
   }
 
@@ -515,7 +533,7 @@ class Delaunay_leaf_refiner_3 {
 
   /// Whether a point outside the domain would come closer to a vertex than the refinement out there needs.
   bool is_crowded(Worker& w, const Vec_3& p) const {
-    const double least = 0.5 * w.task_.outside_target;
+    const double least = 0.3 * w.task_.outside_target;
     return w.features_.cavity().squared_insertion_radius(p) < least * least;
   }
 

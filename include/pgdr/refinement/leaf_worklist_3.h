@@ -43,10 +43,10 @@ class Leaf_worklist_3 {
   using Parcel = Leaf_parcel_3<Tr>;
 
   bool has_work() const {
-    return !active_.empty() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
+    return !active_.empty() || !active_outside_.empty() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
   }
   bool empty() const { return !has_work() && deferred_.empty(); }
-  std::size_t active() const { return active_.size() + retries_.size() + errands_.size() + queues_.size(); }
+  std::size_t active() const { return active_.size() + active_outside_.size() + retries_.size() + errands_.size() + queues_.size(); }
   std::size_t deferred() const { return deferred_.size(); }
   std::size_t size() const { return active() + deferred(); }
 
@@ -91,6 +91,7 @@ class Leaf_worklist_3 {
 
   void release_memory() {
     active_.release_if_empty();
+    active_outside_.release_if_empty();
     errands_.release_if_empty();
     retries_.release_if_empty();
     queues_.subsegments.release_if_empty();
@@ -103,6 +104,7 @@ class Leaf_worklist_3 {
   friend class Delaunay_leaf_refiner_3;
 
   Fifo<Cell_id> active_;
+  Fifo<Cell_id> active_outside_;  ///< when nothing else is left: these yield to every feature
   std::vector<Cell_id> deferred_;
   std::vector<Cell_id> outside_;  ///< deferred tetrahedra outside the domain
   Fifo<std::unique_ptr<Errand>> errands_;
