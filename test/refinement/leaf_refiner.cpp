@@ -106,13 +106,13 @@ class Interval_refiner {
     pgdr::Work_estimate e;
     for (const Interval& i : list.deferred_) {
       e.insertions += 2 * i.radius() / bound_(i.middle());
-      e.smallest_size = std::min(e.smallest_size, bound_(i.middle()));
+      e.largest_size = std::max(e.largest_size, bound_(i.middle()));
     }
     return e;
   }
 
-  bool is_finer(const Region_3&, const Region_3&, double bound, const Worklist& list) const {
-    return list.coarsest() < bound;
+  pgdr::Scan_result scan(const Region_3&, const Region_3&, double bound, const Worklist& list) const {
+    return {list.coarsest() < bound, list.coarsest()};
   }
 
   std::set<double> points;

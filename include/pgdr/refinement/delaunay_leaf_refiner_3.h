@@ -13,7 +13,7 @@
 #include <pgdr/conforming/feature_refiner_3.h>
 #include <pgdr/conforming/flat_cell_3.h>
 #include <pgdr/conforming/subdomains_3.h>
-#include <pgdr/refinement/cell_scan_3.h>
+#include <pgdr/refinement/box_scan_3.h>
 #include <pgdr/refinement/enclosing_ball.h>
 #include <pgdr/refinement/hull_box_3.h>
 #include <pgdr/refinement/leaf_refiner.h>
@@ -123,9 +123,8 @@ class Delaunay_leaf_refiner_3 {
         if (errand->cell.is_live()) refine(w, errand->cell, errand->refused, list, result);
         continue;
       }
-      if (list.active_.empty()) break;
-      list.prefetch();
-      const Cell_id id = list.active_.pop();
+      if (!list.has_active()) break;
+      const Cell_id id = list.pop_active();
       if (id.is_live()) refine(w, id, {}, list, result);
     }
     result.inserted += features.inserted() - on_features;
@@ -141,7 +140,7 @@ class Delaunay_leaf_refiner_3 {
         if (parcel.cell.cell->subdomain() != 0)
           list.add_poor(parcel.cell, target);
         else if (static_cast<double>(parcel.cell.radius) > outside_target)
-          list.active_.push(parcel.cell);
+          list.active_outside_.push(parcel.cell);
         else
           list.outside_.push_back(parcel.cell);
         break;
@@ -154,20 +153,20 @@ class Delaunay_leaf_refiner_3 {
 
   /// Deferred elements that are above the target become active.
   void activate(Worklist& list, double target, double outside_target) const {
-    const auto sift = [&list](std::vector<Cell_id>& from, double above) {
+    const auto sift = [](std::vector<Cell_id>& from, double above, Fifo<Cell_id>& to) {
       std::size_t kept = 0;
       for (const Cell_id& id : from) {
         if (!id.is_live()) continue;
         if (static_cast<double>(id.radius) > above)
-          list.active_.push(id);
+          to.push(id);
         else
           from[kept++] = id;
       }
       from.resize(kept);
       if (kept == 0) from.shrink_to_fit();
     };
-    sift(list.deferred_, target);
-    sift(list.outside_, outside_target);
+    sift(list.deferred_, target, list.active_);
+    sift(list.outside_, outside_target, list.active_outside_);
   }
 
   /// Empties a worklist into `sink(Parcel)`. \pre it has no outgoing parcels and no piece is stranded
@@ -193,6 +192,7 @@ class Delaunay_leaf_refiner_3 {
       if (id.is_live()) sink(Parcel{rough_steiner_point(id.cell), Kind::poor, id, nullptr});
     };
     while (!list.active_.empty()) send(list.active_.pop());
+    while (!list.active_outside_.empty()) send(list.active_outside_.pop());
     for (const Cell_id& id : list.deferred_) send(id);
     for (const Cell_id& id : list.outside_) send(id);
     for (const auto& [at, id] : list.refused_)
@@ -208,7 +208,7 @@ class Delaunay_leaf_refiner_3 {
   /// other requests, so that a run that has to stop leaves every facet whole.
   template <class Lists>
   Drain_result settle(Worker& w, Lists&& torn, bool closing, double outside_target, Worklist& list) {
-    for (Worklist* t : torn) take_torn(*t, closing, list);
+    for (Worklist* t : torn) list.take_torn(*t, closing);
     Leaf_task task;
     task.target = std::numeric_limits<double>::infinity();
     task.outside_target = outside_target;
@@ -241,7 +241,7 @@ class Delaunay_leaf_refiner_3 {
     for (std::size_t k = 0; k < n; k += step) {
       const Cell_id& id = list.deferred_[k];
       if (!id.is_live()) continue;
-      const double size = criteria_.size_at(tetrahedron_ball(points(id.cell)).center);
+      const double size = criteria_.size_at(tetrahedron_ball(tetrahedron_points(id.cell)).center);
       const double f = static_cast<double>(id.radius) / size;
       e.insertions += static_cast<double>(std::min(step, n - k)) * std::max(1.0, std::min(f * f * f, 1e12));
       e.largest_size = std::max(e.largest_size, size);
@@ -251,38 +251,12 @@ class Delaunay_leaf_refiner_3 {
 
   /// Whether every tetrahedron that meets the box, but is not inside the hole, has m < bound. Reads only.
   Scan_result scan(const Region_3& box, const Region_3& hole, double bound, const Worklist& list) const {
-    Scan_result result;
-    Cell_scan_3<Tr> cells(tr_);
-    result.finer = cells.visit(
-        hull_.nearest(box), list.anchor(), [&](Cell_handle c) { return boxes_meet(points(c), box); },
-        [&](Cell_handle c) {
-          // Most tetrahedra are small enough by what is known of their balls.
-          const double known = c->ball().is_known() ? static_cast<double>(c->ball().squared_outside)
-                                                    : std::numeric_limits<double>::infinity();
-          if (known < bound * bound && known <= result.coarsest * result.coarsest) return true;
-          const Tetrahedron_points p = points(c);
-          const Tetrahedron_ball b = tetrahedron_ball(p);
-          // What is poor, or outside, is on some worklist, or was refused.
-          if (c->subdomain() != 0 && b.squared_radius > result.coarsest * result.coarsest &&
-              !criteria_.is_poor(b, c->subdomain()))
-            result.coarsest = static_cast<double>(upwards) * std::sqrt(b.squared_radius);
-          return b.squared_radius < bound * bound * (1 - 1e-8) || !boxes_meet(p, box) || is_inside(p, hole) ||
-                 enclosing_radius(p) < bound;
-        });
-    return result;
+    return scan_box(tr_, criteria_, box, hole, bound, hull_.nearest(box), list.anchor());
   }
 
   /// Whether every tetrahedron whose circumball meets the box has a circumradius < bound. Reads only.
   bool has_smaller_circumballs(const Region_3& box, double bound, const Worklist& list) const {
-    Cell_scan_3<Tr> scan(tr_);
-    const auto meets = [&](Cell_handle c) {
-      const Tetrahedron_ball b = tetrahedron_ball(points(c));
-      const double d = distance_to_box(b.center, box);
-      return d * d < b.squared_radius;
-    };
-    return scan.visit(hull_.nearest(box), list.anchor(), meets, [&](Cell_handle c) {
-      return !meets(c) || tetrahedron_ball(points(c)).squared_radius < bound * bound * (1 - 1e-8);
-    });
+    return scan_circumballs(tr_, box, bound, hull_.nearest(box), list.anchor());
   }
 
  private:
@@ -322,23 +296,6 @@ class Delaunay_leaf_refiner_3 {
     list.release_memory();
   }
 
-  static void take_torn(Worklist& from, bool closing, Worklist& into) {
-    const auto move = [](Fifo<Feature_request>& a, Fifo<Feature_request>& b) {
-      while (!a.empty()) b.push(a.pop());
-    };
-    move(from.stranded_.subsegments, into.queues_.subsegments);
-    move(from.stranded_.subfacets, into.queues_.subfacets);
-    if (closing) {
-      move(from.queues_.subsegments, into.queues_.subsegments);
-      move(from.queues_.subfacets, into.queues_.subfacets);
-    }
-    into.unlabelled_.insert(into.unlabelled_.end(), from.unlabelled_.begin(), from.unlabelled_.end());
-    from.unlabelled_.clear();
-    from.torn_ = false;
-    into.torn_ = true;
-    if (into.anchor_ == Vertex_handle()) into.anchor_ = from.anchor_;
-  }
-
   void run_errand(Worker& w, Worklist& list) const {
     auto errand = list.errands_.pop();
     if (!w.features_.run(errand)) return;
@@ -364,14 +321,14 @@ class Delaunay_leaf_refiner_3 {
   void classify_outside(Worker& w, Cell_handle c, Worklist& list) {
     const double target = w.task_.outside_target;
     if (target == std::numeric_limits<double>::infinity() || tr_.is_infinite(c)) return;
-    const Tetrahedron_points p = points(c);
+    const Tetrahedron_points p = tetrahedron_points(c);
     const Tetrahedron_ball ball = tetrahedron_ball(p);
     const double r = std::sqrt(ball.squared_radius);
     c->ball().set(ball.center, r, ball_error);
     const double m = r <= target ? r : enclosing_radius(p);
     const Cell_id id{c, c->generation(), upwards * static_cast<float>(m)};
     if (m > target)
-      list.active_.push(id);
+      list.active_outside_.push(id);
     else if (!w.task_.last)
       list.outside_.push_back(id);  // smaller leaves may come
     else
@@ -396,9 +353,9 @@ class Delaunay_leaf_refiner_3 {
               Drain_result& result) {
     const bool outside = id.cell->subdomain() == 0;
     if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
-    const Tetrahedron_points corners = points(id.cell);
+    const Tetrahedron_points corners = tetrahedron_points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    const Vec_3 center = outside ? hull_.clamp(ball.center) : hull_.pull_in(ball.center, corners);
+    const Vec_3 center = outside ? hull_.attract(ball) : hull_.pull_in(ball.center, corners);
     if (!w.task_.region.contains(center)) {
       list.outgoing_.push_back({center, Parcel::Kind::poor, id, nullptr});
       return;
@@ -433,10 +390,6 @@ class Delaunay_leaf_refiner_3 {
     for (const Cell_handle c : cavity.star()) classify(w, c, list);
   }
 
-  static Tetrahedron_points points(Cell_handle c) {
-    return {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))};
-  }
-
   /// Good enough to find the leaf that will look at it; that one computes the point itself.
   Vec_3 rough_steiner_point(Cell_handle c) const {
     const Certified_ball& b = c->ball();
@@ -445,9 +398,9 @@ class Delaunay_leaf_refiner_3 {
                     static_cast<double>(b.center[2])};
       if (hull_.box().contains_closed(p)) return p;
     }
-    const Tetrahedron_points corners = points(c);
+    const Tetrahedron_points corners = tetrahedron_points(c);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    return c->subdomain() == 0 ? hull_.clamp(ball.center) : hull_.pull_in(ball.center, corners);
+    return c->subdomain() == 0 ? hull_.attract(ball) : hull_.pull_in(ball.center, corners);
   }
 
   /// Whether p lies in the equatorial ball of a subfacet on the cell. A point outside the domain does so more often than
@@ -461,7 +414,7 @@ class Delaunay_leaf_refiner_3 {
 
   /// Whether a point outside the domain would come closer to a vertex than the refinement out there needs.
   bool is_crowded(Worker& w, const Vec_3& p) const {
-    const double least = 0.5 * w.task_.outside_target;
+    const double least = 0.3 * w.task_.outside_target;
     return w.features_.cavity().squared_insertion_radius(p) < least * least;
   }
 
@@ -472,27 +425,12 @@ class Delaunay_leaf_refiner_3 {
            w.features_.cavity().find(Point(center.x, center.y, center.z), c);
   }
 
-  /// The length that a split on behalf of a tetrahedron may not go below next to small angles: half its shortest
-  /// edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on the shell of one
-  /// acute corner the radius of the shell. A tetrahedron that is only too large may also halve its circumradius.
-  double shortest_allowed(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {
-    double allowed = 0.5 * std::sqrt(ball.squared_shortest);
-    for (int i = 0; i < 4; ++i)
-      for (int j = i + 1; j < 4; ++j) {
-        const double d2 = squared_distance(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]);
-        if (d2 > ball.squared_shortest) continue;
-        const double shell = std::min(c->vertex(i)->insertion_radius(), c->vertex(j)->insertion_radius());
-        if (shell * shell > d2) allowed = std::max(allowed, shell);
-      }
-    return criteria_.is_over_ratio(ball) ? allowed : std::min(allowed, 0.5 * std::sqrt(ball.squared_radius));
-  }
-
   /// Splits the first obstacle that lets itself be split, but for those that are known not to. An obstacle whose split
   /// point lies in another leaf takes the tetrahedron along.
   Split_outcome split_obstacle(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
                                const Tetrahedron_points& corners, const std::vector<Piece_id>& refused) const {
     Features& features = w.features_;
-    const Split_guard guard{shortest_allowed(id.cell, ball, corners), corners, 4,
+    const Split_guard guard{shortest_allowed(id.cell, ball, corners, criteria_.is_over_ratio(ball)), corners, 4,
                             4 * std::sqrt(ball.squared_radius)};
     const bool segments = w.obstacles_.are_subsegments();
     for (const Piece_id& piece : w.obstacles_.to_split()) {

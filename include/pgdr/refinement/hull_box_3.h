@@ -3,6 +3,7 @@
 #define PGDR_REFINEMENT_HULL_BOX_3_H
 
 #include <algorithm>
+#include <cmath>
 
 #include <pgdr/domain/region_3.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
@@ -48,6 +49,22 @@ class Hull_box_3 {
     for (int i = 0; i < 3; ++i)
       p[i] = 0.5 * (std::max(box.lower[i], box_.lower[i]) + std::min(box.upper[i], box_.upper[i]));
     return clamp(p);
+  }
+
+  /// The Steiner point of a tetrahedron outside the domain: its circumcenter, or where that is beyond the hull or close
+  /// to it, a point of the hull's faces, edges or corners. So no vertex comes so close to the hull that a flat
+  /// tetrahedron in between could not be split. What the circumball has in common with the hull fits into a ball of
+  /// radius rho around the nearest point of the hull; the point is no farther from there than 0.58 rho.
+  Vec_3 attract(const Tetrahedron_ball& ball) const {
+    Vec_3 p = clamp(ball.center);
+    const double rho = std::sqrt(std::max(0.0, ball.squared_radius - squared_distance(p, ball.center)));
+    for (int i = 0; i < 3; ++i) {
+      if (p[i] - box_.lower[i] < rho / 3)
+        p[i] = box_.lower[i];
+      else if (box_.upper[i] - p[i] < rho / 3)
+        p[i] = box_.upper[i];
+    }
+    return p;
   }
 
   /// The Steiner point of a ball whose center is outside the hull: where the way from the tetrahedron to the center

@@ -44,10 +44,12 @@ class Leaf_worklist_3 {
   using Parcel = Leaf_parcel_3<Tr>;
 
   bool has_work() const {
-    return !active_.empty() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
+    return has_active() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
   }
   bool empty() const { return !has_work() && deferred_.empty(); }
-  std::size_t active() const { return active_.size() + retries_.size() + errands_.size() + queues_.size(); }
+  std::size_t active() const {
+    return active_.size() + active_outside_.size() + retries_.size() + errands_.size() + queues_.size();
+  }
   std::size_t deferred() const { return deferred_.size(); }
   std::size_t size() const { return active() + deferred(); }
 
@@ -93,8 +95,27 @@ class Leaf_worklist_3 {
     anchor_ = parent.anchor_;
   }
 
+  /// Takes over what is stranded or unlabelled in another worklist; `all` its other features, too.
+  void take_torn(Leaf_worklist_3& from, bool all) {
+    const auto move = [](Fifo<Feature_request>& a, Fifo<Feature_request>& b) {
+      while (!a.empty()) b.push(a.pop());
+    };
+    move(from.stranded_.subsegments, queues_.subsegments);
+    move(from.stranded_.subfacets, queues_.subfacets);
+    if (all) {
+      move(from.queues_.subsegments, queues_.subsegments);
+      move(from.queues_.subfacets, queues_.subfacets);
+    }
+    unlabelled_.insert(unlabelled_.end(), from.unlabelled_.begin(), from.unlabelled_.end());
+    from.unlabelled_.clear();
+    from.torn_ = false;
+    torn_ = true;
+    if (anchor_ == Vertex_handle()) anchor_ = from.anchor_;
+  }
+
   void release_memory() {
     active_.release_if_empty();
+    active_outside_.release_if_empty();
     errands_.release_if_empty();
     retries_.release_if_empty();
     queues_.subsegments.release_if_empty();
@@ -102,26 +123,35 @@ class Leaf_worklist_3 {
     if (outgoing_.empty()) std::vector<Parcel>().swap(outgoing_);
   }
 
-  /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
-  void prefetch() const {
-    constexpr std::size_t far = 16, near = 8;
-    if (active_.size() <= far) return;
-    const char* next = reinterpret_cast<const char*>(&*active_[far].cell);
-    __builtin_prefetch(next);
-    __builtin_prefetch(next + 64);
-    if (!active_[near].is_live()) return;
-    for (int i = 0; i < 4; ++i) {
-      __builtin_prefetch(&*active_[near].cell->vertex(i));
-      __builtin_prefetch(&*active_[near].cell->neighbor(i));
-      __builtin_prefetch(reinterpret_cast<const char*>(&*active_[near].cell->neighbor(i)) + 64);
-    }
+  /// What to look at next: first what is inside the domain. \pre one of them is active
+  Cell_id pop_active() {
+    Fifo<Cell_id>& queue = active_.empty() ? active_outside_ : active_;
+    prefetch(queue);
+    return queue.pop();
   }
+  bool has_active() const { return !active_.empty() || !active_outside_.empty(); }
 
  private:
   template <class, class>
   friend class Delaunay_leaf_refiner_3;
 
+  /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
+  static void prefetch(const Fifo<Cell_id>& queue) {
+    constexpr std::size_t far = 16, near = 8;
+    if (queue.size() <= far) return;
+    const char* next = reinterpret_cast<const char*>(&*queue[far].cell);
+    __builtin_prefetch(next);
+    __builtin_prefetch(next + 64);
+    if (!queue[near].is_live()) return;
+    for (int i = 0; i < 4; ++i) {
+      __builtin_prefetch(&*queue[near].cell->vertex(i));
+      __builtin_prefetch(&*queue[near].cell->neighbor(i));
+      __builtin_prefetch(reinterpret_cast<const char*>(&*queue[near].cell->neighbor(i)) + 64);
+    }
+  }
+
   Fifo<Cell_id> active_;
+  Fifo<Cell_id> active_outside_;  ///< when nothing else is left: these yield to every feature
   std::vector<Cell_id> deferred_;
   std::vector<Cell_id> outside_;  ///< deferred tetrahedra outside the domain
   Fifo<std::unique_ptr<Errand>> errands_;

@@ -2,12 +2,15 @@
 #ifndef PGDR_REFINEMENT_OBSTACLES_3_H
 #define PGDR_REFINEMENT_OBSTACLES_3_H
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/encroachment_3.h>
+#include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
 
@@ -54,6 +57,23 @@ class Obstacles_3 {
   std::vector<Piece_id> subsegments_;
   std::vector<Piece_id> subfacets_;
 };
+
+/// The length that a split on behalf of a tetrahedron may not go below next to small angles: half its shortest
+/// edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on the shell of one
+/// acute corner the radius of the shell. A tetrahedron that is only too large may also halve its circumradius.
+template <class Cell_handle>
+double shortest_allowed(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners,
+                      bool is_over_ratio) {
+  double allowed = 0.5 * std::sqrt(ball.squared_shortest);
+  for (int i = 0; i < 4; ++i)
+    for (int j = i + 1; j < 4; ++j) {
+      const double d2 = squared_distance(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]);
+      if (d2 > ball.squared_shortest) continue;
+      const double shell = std::min(c->vertex(i)->insertion_radius(), c->vertex(j)->insertion_radius());
+      if (shell * shell > d2) allowed = std::max(allowed, shell);
+    }
+  return is_over_ratio ? allowed : std::min(allowed, 0.5 * std::sqrt(ball.squared_radius));
+}
 
 }  // namespace pgdr
 
