@@ -44,6 +44,7 @@ class Interval_refiner {
     std::size_t deferred() const { return deferred_.size(); }
     bool is_torn() const { return false; }
     double coarsest() const { return coarsest_; }
+    void reset_coarsest(double radius) { coarsest_ = radius; }
     void measure_deferred() {
       measured_ = 0;
       for (const Interval& i : deferred_) measured_ = std::max(measured_, i.radius());

@@ -24,6 +24,8 @@
 
 namespace pgdr {
 
+// Length: the engine in one piece; what stands on its own is in obstacles_3.h, hull_box_3.h, box_scan_3.h, leaf_worklist_3.h.
+
 /// Sequential Delaunay refinement of one leaf: splits poor tetrahedra at their circumcenters until none is left
 /// (Shewchuk, *Tetrahedral mesh generation by Delaunay refinement*, 1998). A model of `LeafRefiner`.
 ///
@@ -70,6 +72,8 @@ class Delaunay_leaf_refiner_3 {
 
   /// The convex hull of all that is refined.
   const Region_3& hull() const { return hull_.box(); }
+  /// A vertex at a corner of the hull.
+  Vertex_handle corner() const { return hull_.corner(); }
 
   /// A worklist with every poor tetrahedron of the domain, for a leaf that is everything. \pre no other thread works
   Worklist everything(Worker& w) {
