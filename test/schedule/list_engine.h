@@ -22,6 +22,7 @@ struct List_engine {
     std::size_t deferred() const { return estimate.insertions > 0; }
     bool is_torn() const { return false; }
     double coarsest() const { return coarsest_radius; }
+    void reset_coarsest(double radius) { coarsest_radius = radius; }
     void measure_deferred() {}
     double measured_deferred() const { return deferred_radius; }
     std::vector<Parcel>& outgoing() { return parcels; }
@@ -35,8 +36,9 @@ struct List_engine {
   void receive(Worklist&, Parcel&&, double, double) const {}
   void activate(Worklist&, double, double) const {}
   pgdr::Work_estimate estimate(const Worklist& list) const { return list.estimate; }
-  bool is_finer(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound, const Worklist&) const {
-    return finer(box, hole, bound);
+  pgdr::Scan_result scan(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound,
+                         const Worklist& list) const {
+    return {finer(box, hole, bound), list.coarsest_radius};
   }
 
   /// Whether all elements that meet a box, but not those inside a hole in it, are smaller than a bound.

@@ -31,7 +31,7 @@ struct Situation {
     auto& list = leaves[i].work;
     list.estimate.insertions = insertions;
     list.deferred_radius = pgdr::zone_target(leaves[i].shortest);
-    list.estimate.smallest_size = 0.5 * list.deferred_radius;
+    list.estimate.largest_size = 0.5 * list.deferred_radius;
   }
   void add_work_everywhere() {
     for (std::uint32_t i = 0; i < octree.size(); ++i) add_work(i, 1e6);
@@ -108,7 +108,7 @@ TEST_CASE("A leaf without enough to do becomes final, the others are split", "[s
 TEST_CASE("A leaf whose children would be smaller than the sizes ask for becomes final", "[schedule]") {
   Situation s(uniform(1));
   s.add_work_everywhere();
-  s.leaves[3].work.estimate.smallest_size = pgdr::zone_target(s.leaves[3].shortest);
+  s.leaves[3].work.estimate.largest_size = pgdr::zone_target(s.leaves[3].shortest);
   REQUIRE(s.decide());
   CHECK(s.leaves[3].final);
   CHECK(s.final_leaves() == 1);

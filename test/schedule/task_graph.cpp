@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <pgdr/schedule/in_arena.h>
+#include <pgdr/parallel/thread_arena.h>
 
 #include "catch.h"
 #include "mesh/random.h"
@@ -49,7 +49,7 @@ TEST_CASE("Every task runs once, after all that precede it", "[schedule]") {
       std::vector<std::uint64_t> begin(n, 0), end(n, 0);
       std::atomic<int> again{0};
       std::size_t ready = 0;
-      pgdr::in_arena(threads, [&] {
+      pgdr::with_threads(threads, [&] {
         ready = pgdr::run_task_graph(n, successors_of(graph), [&](std::size_t k) {
           again += begin[k] != 0;
           begin[k] = clock++;
@@ -89,7 +89,7 @@ TEST_CASE("What a task throws comes out, and what depends on it does not run", "
     std::atomic<bool> over{false};
     std::string what;
     std::atomic<int> late{0};
-    pgdr::in_arena(threads, [&] {
+    pgdr::with_threads(threads, [&] {
       try {
         pgdr::run_task_graph(n, successors_of(graph), [&](std::size_t k) {
           late += over.load();
