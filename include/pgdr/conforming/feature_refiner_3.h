@@ -81,13 +81,7 @@ class Feature_refiner_3 {
   std::vector<std::pair<Vec_3, std::unique_ptr<Errand>>>& outgoing() { return outgoing_; }
   /// Missing pieces that cannot be split in this region. The caller empties it.
   Feature_queues& stranded() { return stranded_; }
-  /// The point and the piece at which the last split was `elsewhere`.
-  struct Elsewhere {
-    Vec_3 at;
-    Piece_id piece;
-    bool is_subsegment = false;
-  };
-  const Elsewhere& elsewhere() const { return elsewhere_; }
+  const Split_elsewhere& elsewhere() const { return elsewhere_; }
 
   /// Handles one request, subsegments before subfacets. \pre not idle.
   void step() { handle(false); }
@@ -488,7 +482,7 @@ class Feature_refiner_3 {
   Feature_queues queues_;
   Feature_queues stranded_;
   std::vector<std::pair<Vec_3, std::unique_ptr<Errand>>> outgoing_;
-  Elsewhere elsewhere_;
+  Split_elsewhere elsewhere_;
   std::vector<Cell_id> fresh_cells_;
   std::vector<Cell_id> unlabelled_cells_;
   double squared_min_edge_;

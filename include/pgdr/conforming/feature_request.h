@@ -37,6 +37,13 @@ struct Split_guard {
   double reach = 0;                 ///< within this distance of a small angle; for `count` 0, 4 radii of the piece
 };
 
+/// The point and the piece at which a split was `elsewhere`.
+struct Split_elsewhere {
+  Vec_3 at;
+  Piece_id piece;
+  bool is_subsegment = false;
+};
+
 /// A piece that waits to be split.
 struct Feature_request {
   Piece_id piece;

@@ -42,7 +42,7 @@ class Cell_scan_3 {
       if (!visit(d)) return false;
       for (int i = 0; i < 4; ++i) {
         const Cell_handle n = d->neighbor(i);
-        if (!tr_.is_infinite(n) && belongs(n) && insert(n)) front.push_back(n);
+        if (!tr_.is_infinite(n) && insert(n) && belongs(n)) front.push_back(n);
       }
     }
     return true;

@@ -13,10 +13,12 @@
 #include <pgdr/conforming/feature_refiner_3.h>
 #include <pgdr/conforming/flat_cell_3.h>
 #include <pgdr/conforming/subdomains_3.h>
-#include <pgdr/refinement/cell_scan_3.h>
+#include <pgdr/refinement/box_scan_3.h>
 #include <pgdr/refinement/enclosing_ball.h>
+#include <pgdr/refinement/hull_box_3.h>
 #include <pgdr/refinement/leaf_refiner.h>
 #include <pgdr/refinement/leaf_worklist_3.h>
+#include <pgdr/refinement/obstacles_3.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
@@ -55,29 +57,25 @@ class Delaunay_leaf_refiner_3 {
     Features features_;
     Zone_guard_3<Tr> guard_;
     Leaf_task task_;
-    std::vector<Piece_id> segments_in_the_way_;
-    std::vector<Piece_id> facets_in_the_way_;
+    Obstacles_3<Tr> obstacles_;
   };
 
   Delaunay_leaf_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, const Criteria& criteria,
                           double min_edge_length)
-      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length) {
-    measure_hull();
-  }
+      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length), hull_(tr) {}
 
   std::unique_ptr<Worker> make_worker() const {
     return std::make_unique<Worker>(tr_, complex_, acute_, min_edge_length_);
   }
 
-  /// The bounding box of all vertices, which is the convex hull, and one of its corners.
-  const Region_3& hull() const { return hull_; }
-  Vertex_handle corner() const { return corner_; }
+  /// The convex hull of all that is refined.
+  const Region_3& hull() const { return hull_.box(); }
 
   /// A worklist with every poor tetrahedron of the domain, for a leaf that is everything. \pre no other thread works
   Worklist everything(Worker& w) {
     Worklist list;
     open(w, Leaf_task{}, list);
-    list.set_anchor(corner_);
+    list.set_anchor(hull_.corner());
     w.task_.target = std::numeric_limits<double>::infinity();
     for (auto c = tr_.finite_cells_begin(); c != tr_.finite_cells_end(); ++c) classify(w, c, list);
     close(w, list);
@@ -125,10 +123,8 @@ class Delaunay_leaf_refiner_3 {
         if (errand->cell.is_live()) refine(w, errand->cell, errand->refused, list, result);
         continue;
       }
-      auto& queue = list.active_.empty() ? list.active_outside_ : list.active_;
-      if (queue.empty()) break;
-      prefetch(queue);
-      const Cell_id id = queue.pop();
+      if (!list.has_active()) break;
+      const Cell_id id = list.pop_active();
       if (id.is_live()) refine(w, id, {}, list, result);
     }
     result.inserted += features.inserted() - on_features;
@@ -151,6 +147,7 @@ class Delaunay_leaf_refiner_3 {
       case Kind::errand: list.errands_.push(std::move(parcel.errand)); break;
       case Kind::retry: list.retries_.push(std::move(parcel.errand)); break;
       case Kind::coarse: list.note_coarse(static_cast<double>(parcel.cell.radius)); break;
+      case Kind::refused: list.note_refused(parcel.at, parcel.cell); break;
     }
   }
 
@@ -198,8 +195,11 @@ class Delaunay_leaf_refiner_3 {
     while (!list.active_outside_.empty()) send(list.active_outside_.pop());
     for (const Cell_id& id : list.deferred_) send(id);
     for (const Cell_id& id : list.outside_) send(id);
+    for (const auto& [at, id] : list.refused_)
+      if (id.is_live()) sink(Parcel{at, Kind::refused, id, nullptr});
     list.deferred_ = {};
     list.outside_ = {};
+    list.refused_ = {};
     list.release_memory();
   }
 
@@ -208,7 +208,7 @@ class Delaunay_leaf_refiner_3 {
   /// other requests, so that a run that has to stop leaves every facet whole.
   template <class Lists>
   Drain_result settle(Worker& w, Lists&& torn, bool closing, double outside_target, Worklist& list) {
-    for (Worklist* t : torn) take_torn(*t, closing, list);
+    for (Worklist* t : torn) list.take_torn(*t, closing);
     Leaf_task task;
     task.target = std::numeric_limits<double>::infinity();
     task.outside_target = outside_target;
@@ -241,7 +241,7 @@ class Delaunay_leaf_refiner_3 {
     for (std::size_t k = 0; k < n; k += step) {
       const Cell_id& id = list.deferred_[k];
       if (!id.is_live()) continue;
-      const double size = criteria_.size_at(tetrahedron_ball(points(id.cell)).center);
+      const double size = criteria_.size_at(tetrahedron_ball(tetrahedron_points(id.cell)).center);
       const double f = static_cast<double>(id.radius) / size;
       e.insertions += static_cast<double>(std::min(step, n - k)) * std::max(1.0, std::min(f * f * f, 1e12));
       e.largest_size = std::max(e.largest_size, size);
@@ -251,38 +251,12 @@ class Delaunay_leaf_refiner_3 {
 
   /// Whether every tetrahedron that meets the box, but is not inside the hole, has m < bound. Reads only.
   Scan_result scan(const Region_3& box, const Region_3& hole, double bound, const Worklist& list) const {
-    Scan_result result;
-    Cell_scan_3<Tr> cells(tr_);
-    result.finer = cells.visit(
-        nearest_in_hull(box), list.anchor(), [&](Cell_handle c) { return boxes_meet(points(c), box); },
-        [&](Cell_handle c) {
-          // Most tetrahedra are small enough by what is known of their balls.
-          const double known = c->ball().is_known() ? static_cast<double>(c->ball().squared_outside)
-                                                    : std::numeric_limits<double>::infinity();
-          if (known < bound * bound && known <= result.coarsest * result.coarsest) return true;
-          const Tetrahedron_points p = points(c);
-          const Tetrahedron_ball b = tetrahedron_ball(p);
-          // What is poor, or outside, is on some worklist, or was refused.
-          if (c->subdomain() != 0 && b.squared_radius > result.coarsest * result.coarsest &&
-              !criteria_.is_poor(b, c->subdomain()))
-            result.coarsest = static_cast<double>(upwards) * std::sqrt(b.squared_radius);
-          return b.squared_radius < bound * bound * (1 - 1e-8) || !boxes_meet(p, box) || is_inside(p, hole) ||
-                 enclosing_radius(p) < bound;
-        });
-    return result;
+    return scan_box(tr_, criteria_, box, hole, bound, hull_.nearest(box), list.anchor());
   }
 
   /// Whether every tetrahedron whose circumball meets the box has a circumradius < bound. Reads only.
   bool has_smaller_circumballs(const Region_3& box, double bound, const Worklist& list) const {
-    Cell_scan_3<Tr> scan(tr_);
-    const auto meets = [&](Cell_handle c) {
-      const Tetrahedron_ball b = tetrahedron_ball(points(c));
-      const double d = distance_to_box(b.center, box);
-      return d * d < b.squared_radius;
-    };
-    return scan.visit(nearest_in_hull(box), list.anchor(), meets, [&](Cell_handle c) {
-      return !meets(c) || tetrahedron_ball(points(c)).squared_radius < bound * bound * (1 - 1e-8);
-    });
+    return scan_circumballs(tr_, box, bound, hull_.nearest(box), list.anchor());
   }
 
  private:
@@ -323,43 +297,11 @@ class Delaunay_leaf_refiner_3 {
     list.release_memory();
   }
 
-  static void take_torn(Worklist& from, bool closing, Worklist& into) {
-    const auto move = [](Fifo<Feature_request>& a, Fifo<Feature_request>& b) {
-      while (!a.empty()) b.push(a.pop());
-    };
-    move(from.stranded_.subsegments, into.queues_.subsegments);
-    move(from.stranded_.subfacets, into.queues_.subfacets);
-    if (closing) {
-      move(from.queues_.subsegments, into.queues_.subsegments);
-      move(from.queues_.subfacets, into.queues_.subfacets);
-    }
-    into.unlabelled_.insert(into.unlabelled_.end(), from.unlabelled_.begin(), from.unlabelled_.end());
-    from.unlabelled_.clear();
-    from.torn_ = false;
-    into.torn_ = true;
-    if (into.anchor_ == Vertex_handle()) into.anchor_ = from.anchor_;
-  }
-
   void run_errand(Worker& w, Worklist& list) const {
     auto errand = list.errands_.pop();
     if (!w.features_.run(errand)) return;
     const Vec_3 home = errand->home;
     list.outgoing_.push_back({home, Parcel::Kind::retry, {}, std::move(errand)});
-  }
-
-  /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
-  static void prefetch(const Fifo<Cell_id>& queue) {
-    constexpr std::size_t far = 16, near = 8;
-    if (queue.size() <= far) return;
-    const char* next = reinterpret_cast<const char*>(&*queue[far].cell);
-    __builtin_prefetch(next);
-    __builtin_prefetch(next + 64);
-    if (!queue[near].is_live()) return;
-    for (int i = 0; i < 4; ++i) {
-      __builtin_prefetch(&*queue[near].cell->vertex(i));
-      __builtin_prefetch(&*queue[near].cell->neighbor(i));
-      __builtin_prefetch(reinterpret_cast<const char*>(&*queue[near].cell->neighbor(i)) + 64);
-    }
   }
 
   /// Puts a tetrahedron on the worklist if it is poor; flat ones on a facet become requests to split that facet.
@@ -380,7 +322,7 @@ class Delaunay_leaf_refiner_3 {
   void classify_outside(Worker& w, Cell_handle c, Worklist& list) {
     const double target = w.task_.outside_target;
     if (target == std::numeric_limits<double>::infinity() || tr_.is_infinite(c)) return;
-    const Tetrahedron_points p = points(c);
+    const Tetrahedron_points p = tetrahedron_points(c);
     const Tetrahedron_ball ball = tetrahedron_ball(p);
     const double r = std::sqrt(ball.squared_radius);
     c->ball().set(ball.center, r, ball_error);
@@ -401,8 +343,10 @@ class Delaunay_leaf_refiner_3 {
                                 {c, c->generation(), upwards * static_cast<float>(radius)}, nullptr});
   }
 
-  void give_up(const Tetrahedron_points& corners, Worklist& list, Drain_result& result) const {
-    list.note_refused(enclosing_radius(corners));
+  void give_up(const Cell_id& id, const Vec_3& at, const Tetrahedron_points& corners, Worklist& list,
+               Drain_result& result) const {
+    const float m = upwards * static_cast<float>(enclosing_radius(corners));
+    list.note_refused(at, {id.cell, id.generation, m});
     ++result.refused;
   }
 
@@ -410,9 +354,9 @@ class Delaunay_leaf_refiner_3 {
               Drain_result& result) {
     const bool outside = id.cell->subdomain() == 0;
     if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
-    const Tetrahedron_points corners = points(id.cell);
+    const Tetrahedron_points corners = tetrahedron_points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    const Vec_3 center = outside ? onto_hull(ball) : into_hull(ball.center, corners);
+    const Vec_3 center = outside ? hull_.attract(ball) : hull_.pull_in(ball.center, corners);
     if (!w.task_.region.contains(center)) {
       list.outgoing_.push_back({center, Parcel::Kind::poor, id, nullptr});
       return;
@@ -421,12 +365,12 @@ class Delaunay_leaf_refiner_3 {
     Cavity_3<Tr>& cavity = w.features_.cavity();
     const bool found = outside ? cavity.find(p, id.cell, [&](Cell_handle c) { return !encroaches_subfacet_of(c, p); })
                                : cavity.find(p, id.cell) || find_with_exact_center(w, id.cell, corners);
-    if (!found) return give_up(corners, list, result);
+    if (!found) return give_up(id, center, corners, list, result);
     w.features_.features().gather(complex_, cavity);
-    const bool blocked = collect_obstacles(w, p);
+    const bool blocked = w.obstacles_.collect(complex_, w.features_.features(), p);
     if (outside && (blocked || is_crowded(w, center))) {
       cavity.abandon();
-      return give_up(corners, list, result);
+      return give_up(id, center, corners, list, result);
     }
     if (blocked) {
       cavity.abandon();
@@ -434,7 +378,7 @@ class Delaunay_leaf_refiner_3 {
         case Split_outcome::inserted:
           if (id.is_live()) list.active_.push(id);
           break;
-        case Split_outcome::refused: give_up(corners, list, result); break;
+        case Split_outcome::refused: give_up(id, center, corners, list, result); break;
         case Split_outcome::elsewhere: break;  // travels with the errand
       }
       return;
@@ -447,80 +391,17 @@ class Delaunay_leaf_refiner_3 {
     for (const Cell_handle c : cavity.star()) classify(w, c, list);
   }
 
-  static Tetrahedron_points points(Cell_handle c) {
-    return {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))};
-  }
-
   /// Good enough to find the leaf that will look at it; that one computes the point itself.
   Vec_3 rough_steiner_point(Cell_handle c) const {
     const Certified_ball& b = c->ball();
     if (b.is_known()) {
       const Vec_3 p{static_cast<double>(b.center[0]), static_cast<double>(b.center[1]),
                     static_cast<double>(b.center[2])};
-      if (hull_.contains_closed(p)) return p;
+      if (hull_.box().contains_closed(p)) return p;
     }
-    const Tetrahedron_points corners = points(c);
+    const Tetrahedron_points corners = tetrahedron_points(c);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    return c->subdomain() == 0 ? onto_hull(ball) : into_hull(ball.center, corners);
-  }
-
-  void measure_hull() {
-    bool first = true;
-    for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) {
-      const Vec_3 p = position(Vertex_handle(v));
-      bool lowest = true;
-      for (int i = 0; i < 3; ++i) {
-        lowest = lowest && (first || p[i] <= hull_.lower[i]);
-        hull_.lower[i] = first ? p[i] : std::min(hull_.lower[i], p[i]);
-        hull_.upper[i] = first ? p[i] : std::max(hull_.upper[i], p[i]);
-      }
-      if (lowest) corner_ = v;
-      first = false;
-    }
-  }
-
-  Vec_3 clamp_to_hull(Vec_3 p) const {
-    for (int i = 0; i < 3; ++i) p[i] = std::clamp(p[i], hull_.lower[i], hull_.upper[i]);
-    return p;
-  }
-
-  /// The Steiner point of a tetrahedron outside the domain: its circumcenter, or where that is beyond the hull or close
-  /// to it, a point of the hull's faces, edges or corners. So no vertex comes so close to the hull that a flat
-  /// tetrahedron in between could not be split. What the circumball has in common with the hull fits into a ball of
-  /// radius rho around the nearest point of the hull; the point is no farther from there than 0.58 rho.
-  Vec_3 onto_hull(const Tetrahedron_ball& ball) const {
-    Vec_3 p = clamp_to_hull(ball.center);
-    const double rho = std::sqrt(std::max(0.0, ball.squared_radius - squared_distance(p, ball.center)));
-    for (int i = 0; i < 3; ++i) {
-      if (p[i] - hull_.lower[i] < rho / 3)
-        p[i] = hull_.lower[i];
-      else if (hull_.upper[i] - p[i] < rho / 3)
-        p[i] = hull_.upper[i];
-    }
-    return p;
-  }
-
-  /// A point of the box in the hull, or the point of the hull that is nearest to it.
-  Vec_3 nearest_in_hull(const Region_3& box) const {
-    Vec_3 p;
-    for (int i = 0; i < 3; ++i) {
-      const double lo = std::max(box.lower[i], hull_.lower[i]), hi = std::min(box.upper[i], hull_.upper[i]);
-      p[i] = std::clamp(0.5 * (lo + hi), hull_.lower[i], hull_.upper[i]);
-    }
-    return p;
-  }
-
-  /// The Steiner point of a ball whose center is outside the hull: where the way from the tetrahedron to the center
-  /// leaves it. Still inside the ball, which is convex.
-  Vec_3 into_hull(const Vec_3& center, const Tetrahedron_points& corners) const {
-    const Vec_3 from = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    double t = 1;
-    for (int i = 0; i < 3; ++i) {
-      if (center[i] < hull_.lower[i]) t = std::min(t, (hull_.lower[i] - from[i]) / (center[i] - from[i]));
-      if (center[i] > hull_.upper[i]) t = std::min(t, (hull_.upper[i] - from[i]) / (center[i] - from[i]));
-    }
-    if (t == 1) return center;
-    return clamp_to_hull(from + t * (center - from));
+    return c->subdomain() == 0 ? hull_.attract(ball) : hull_.pull_in(ball.center, corners);
   }
 
   /// Whether p lies in the equatorial ball of a subfacet on the cell. A point outside the domain does so more often than
@@ -540,52 +421,9 @@ class Delaunay_leaf_refiner_3 {
 
   /// Rounding can put the center of a flat tetrahedron outside of its own ball.
   bool find_with_exact_center(Worker& w, Cell_handle c, const Tetrahedron_points& corners) const {
-    const Vec_3 center = into_hull(exact_tetrahedron_ball(corners).center, corners);
+    const Vec_3 center = hull_.pull_in(exact_tetrahedron_ball(corners).center, corners);
     return w.task_.region.contains(center) &&
            w.features_.cavity().find(Point(center.x, center.y, center.z), c);
-  }
-
-  /// Notes the features that keep p out; subsegments first, and among subfacets first the one below p.
-  bool collect_obstacles(Worker& w, const Point& p) const {
-    w.segments_in_the_way_.clear();
-    w.facets_in_the_way_.clear();
-    for (const auto& f : w.features_.features().subsegments())
-      if (f.deleted || is_encroached(complex_.subsegment(f.slot), p))
-        w.segments_in_the_way_.push_back(complex_.subsegment_id(f.slot));
-    for (const auto& f : w.features_.features().subfacets()) {
-      const auto& t = complex_.subfacet(f.slot);
-      if (!f.deleted && !is_encroached(t, p)) continue;
-      w.facets_in_the_way_.push_back(complex_.subfacet_id(f.slot));
-      if (w.facets_in_the_way_.size() > 1 && is_below(t, p))
-        std::swap(w.facets_in_the_way_.front(), w.facets_in_the_way_.back());
-    }
-    return !w.segments_in_the_way_.empty() || !w.facets_in_the_way_.empty();
-  }
-
-  /// Whether p's projection onto the facet falls into the subfacet.
-  bool is_below(const typename Complex::Subfacet& t, const Point& p) const {
-    const Vec_3 q = complex_.plane(t.facet).project(to_vec(p));
-    const Point foot(q.x, q.y, q.z);
-    for (std::size_t i = 0; i < 3; ++i)
-      if (complex_.orientation(t.facet, t.vertices[i]->point(), t.vertices[(i + 1) % 3]->point(), foot) ==
-          CGAL::NEGATIVE)
-        return false;
-    return true;
-  }
-
-  /// The length that a split on behalf of a tetrahedron may not go below next to small angles: half its shortest
-  /// edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on the shell of one
-  /// acute corner the radius of the shell. A tetrahedron that is only too large may also halve its circumradius.
-  double shortest_allowed(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {
-    double allowed = 0.5 * std::sqrt(ball.squared_shortest);
-    for (int i = 0; i < 4; ++i)
-      for (int j = i + 1; j < 4; ++j) {
-        const double d2 = squared_distance(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]);
-        if (d2 > ball.squared_shortest) continue;
-        const double shell = std::min(c->vertex(i)->insertion_radius(), c->vertex(j)->insertion_radius());
-        if (shell * shell > d2) allowed = std::max(allowed, shell);
-      }
-    return criteria_.is_over_ratio(ball) ? allowed : std::min(allowed, 0.5 * std::sqrt(ball.squared_radius));
   }
 
   /// Splits the first obstacle that lets itself be split, but for those that are known not to. An obstacle whose split
@@ -593,10 +431,10 @@ class Delaunay_leaf_refiner_3 {
   Split_outcome split_obstacle(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
                                const Tetrahedron_points& corners, const std::vector<Piece_id>& refused) const {
     Features& features = w.features_;
-    const Split_guard guard{shortest_allowed(id.cell, ball, corners), corners, 4,
+    const Split_guard guard{shortest_allowed(id.cell, ball, corners, criteria_.is_over_ratio(ball)), corners, 4,
                             4 * std::sqrt(ball.squared_radius)};
-    const bool segments = !w.segments_in_the_way_.empty();
-    for (const Piece_id& piece : segments ? w.segments_in_the_way_ : w.facets_in_the_way_) {
+    const bool segments = w.obstacles_.are_subsegments();
+    for (const Piece_id& piece : w.obstacles_.to_split()) {
       if (std::any_of(refused.begin(), refused.end(), [&](const Piece_id& r) {
             return r.slot == piece.slot && r.version == piece.version;
           }))
@@ -657,8 +495,7 @@ class Delaunay_leaf_refiner_3 {
   const Acute_neighborhood_3& acute_;
   const Criteria& criteria_;
   double min_edge_length_;
-  Region_3 hull_;
-  Vertex_handle corner_;
+  Hull_box_3<Tr> hull_;
   bool collect_coarse_ = false;
 };
 

@@ -24,7 +24,8 @@ struct Leaf_parcel_3 {
     poor,    ///< `cell`, with its Steiner point at `at`
     errand,  ///< a feature with its split point at `at`
     retry,   ///< a tetrahedron that comes home from an errand
-    coarse   ///< no work: an element of radius `cell.radius` that nobody intends to refine
+    coarse,  ///< no work: an element of radius `cell.radius` that is fine as it is
+    refused  ///< no work: one that was given up
   };
   Vec_3 at;
   Kind kind = Kind::poor;
@@ -43,10 +44,12 @@ class Leaf_worklist_3 {
   using Parcel = Leaf_parcel_3<Tr>;
 
   bool has_work() const {
-    return !active_.empty() || !active_outside_.empty() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
+    return has_active() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
   }
   bool empty() const { return !has_work() && deferred_.empty(); }
-  std::size_t active() const { return active_.size() + active_outside_.size() + retries_.size() + errands_.size() + queues_.size(); }
+  std::size_t active() const {
+    return active_.size() + active_outside_.size() + retries_.size() + errands_.size() + queues_.size();
+  }
   std::size_t deferred() const { return deferred_.size(); }
   std::size_t size() const { return active() + deferred(); }
 
@@ -55,9 +58,13 @@ class Leaf_worklist_3 {
 
   /// Upper bound of m, over all elements near the leaf that are not waiting to be refined: fine ones, and those that
   /// were refused.
-  double coarsest() const { return std::max(coarsest_, refused_); }
+  double coarsest() const { return std::max(coarsest_, largest_refused_); }
   void note_coarse(double radius) { coarsest_ = std::max(coarsest_, radius); }
-  void note_refused(double radius) { refused_ = std::max(refused_, radius); }
+  /// An element that was given up, with its Steiner point and its m as radius.
+  void note_refused(const Vec_3& at, const Cell_id& id) {
+    refused_.emplace_back(at, id);
+    largest_refused_ = std::max(largest_refused_, static_cast<double>(id.radius));
+  }
   /// After a scan has measured the fine ones.
   void reset_coarsest(double radius) { coarsest_ = radius; }
   /// The largest radius that is deferred, as of the last `measure_deferred`.
@@ -85,8 +92,25 @@ class Leaf_worklist_3 {
   /// What a child of this leaf starts from.
   void inherit(const Leaf_worklist_3& parent) {
     coarsest_ = parent.coarsest_;
-    refused_ = parent.refused_;
     anchor_ = parent.anchor_;
+  }
+
+  /// Takes over what is stranded or unlabelled in another worklist; `all` its other features, too.
+  void take_torn(Leaf_worklist_3& from, bool all) {
+    const auto move = [](Fifo<Feature_request>& a, Fifo<Feature_request>& b) {
+      while (!a.empty()) b.push(a.pop());
+    };
+    move(from.stranded_.subsegments, queues_.subsegments);
+    move(from.stranded_.subfacets, queues_.subfacets);
+    if (all) {
+      move(from.queues_.subsegments, queues_.subsegments);
+      move(from.queues_.subfacets, queues_.subfacets);
+    }
+    unlabelled_.insert(unlabelled_.end(), from.unlabelled_.begin(), from.unlabelled_.end());
+    from.unlabelled_.clear();
+    from.torn_ = false;
+    torn_ = true;
+    if (anchor_ == Vertex_handle()) anchor_ = from.anchor_;
   }
 
   void release_memory() {
@@ -99,9 +123,32 @@ class Leaf_worklist_3 {
     if (outgoing_.empty()) std::vector<Parcel>().swap(outgoing_);
   }
 
+  /// What to look at next: first what is inside the domain. \pre one of them is active
+  Cell_id pop_active() {
+    Fifo<Cell_id>& queue = active_.empty() ? active_outside_ : active_;
+    prefetch(queue);
+    return queue.pop();
+  }
+  bool has_active() const { return !active_.empty() || !active_outside_.empty(); }
+
  private:
   template <class, class>
   friend class Delaunay_leaf_refiner_3;
+
+  /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
+  static void prefetch(const Fifo<Cell_id>& queue) {
+    constexpr std::size_t far = 16, near = 8;
+    if (queue.size() <= far) return;
+    const char* next = reinterpret_cast<const char*>(&*queue[far].cell);
+    __builtin_prefetch(next);
+    __builtin_prefetch(next + 64);
+    if (!queue[near].is_live()) return;
+    for (int i = 0; i < 4; ++i) {
+      __builtin_prefetch(&*queue[near].cell->vertex(i));
+      __builtin_prefetch(&*queue[near].cell->neighbor(i));
+      __builtin_prefetch(reinterpret_cast<const char*>(&*queue[near].cell->neighbor(i)) + 64);
+    }
+  }
 
   Fifo<Cell_id> active_;
   Fifo<Cell_id> active_outside_;  ///< when nothing else is left: these yield to every feature
@@ -116,7 +163,8 @@ class Leaf_worklist_3 {
   std::vector<Parcel> outgoing_;
   Vertex_handle anchor_;
   double coarsest_ = 0;
-  double refused_ = 0;
+  std::vector<std::pair<Vec_3, Cell_id>> refused_;
+  double largest_refused_ = 0;
   double largest_deferred_ = 0;
   bool torn_ = false;
 };

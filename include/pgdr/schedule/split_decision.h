@@ -26,6 +26,7 @@ template <class Engine>
 class Split_decision {
  public:
   using Leaf = Scheduled_leaf<Engine>;
+  using Worklist = typename Engine::Worklist;
 
   /// Below this number of expected insertions a leaf is not worth splitting; the first of all leaves is worth it
   /// later, since from then on the outside has to be refined as well.
@@ -59,7 +60,13 @@ class Split_decision {
   const std::optional<double>& measured(std::uint32_t j) const { return judged_[j].coarsest; }
 
  private:
-  enum class Verdict : std::uint8_t { untouched, good, pending, coarse };
+  enum class Verdict : std::uint8_t {
+    untouched,  ///< nothing changes for it
+    good,       ///< its zone condition will hold
+    pending,    ///< not before something deferred is refined
+    coarse,     ///< it will not
+    open        ///< only a scan can tell
+  };
   struct Judgement {
     Verdict verdict = Verdict::untouched;
     double shortest = 0;  ///< ell* that it was made for
@@ -137,18 +144,14 @@ class Split_decision {
     std::vector<std::uint32_t> first(octree_.size() + 1, 0);
     for (std::uint32_t i = 0; i < octree_.size(); ++i) first[i + 1] = first[i] + (split_[i] ? 8 : 1);
     tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
-      // One child that cannot be is enough.
-      for (std::uint32_t j = first[i]; j < first[i + 1]; ++j) {
-        judged_[j] = judge_again(j, before);
-        if (judged_[j].verdict == Verdict::pending || judged_[j].verdict == Verdict::coarse) break;
-      }
+      judge_family(first[i], first[i + 1], before);
     });
     last_ = next_;
     bool good = true;
     const std::vector<std::uint8_t> were_split = split_;
     for (std::uint32_t j = 0; j < next_.size(); ++j) {
       const Verdict verdict = judged_[j].verdict;
-      if (verdict == Verdict::untouched || verdict == Verdict::good) continue;
+      if (verdict != Verdict::pending && verdict != Verdict::coarse) continue;
       good = false;
       const bool for_good = verdict == Verdict::coarse;
       if (!for_good) make_room(j);
@@ -164,11 +167,58 @@ class Split_decision {
     return good;
   }
 
+  /// Judges what becomes of one leaf: new leaves [first, last). One that cannot be is enough.
+  void judge_family(std::uint32_t first, std::uint32_t last, const std::vector<Judgement>& before) {
+    bool open = false;
+    for (std::uint32_t j = first; j < last; ++j) {
+      judged_[j] = judge_again(j, before);
+      if (judged_[j].verdict == Verdict::pending || judged_[j].verdict == Verdict::coarse) return;
+      open = open || judged_[j].verdict == Verdict::open;
+    }
+    if (!open) return;
+    // What is known of the leaves around does not tell: look at the elements, for all of the family at once if
+    // that is enough.
+    Requirement all = requirement(first);
+    all.hole_lower = all.hole_upper = all.lower;
+    for (std::uint32_t j = first + 1; j < last; ++j) {
+      const Requirement r = requirement(j);
+      all.bound = std::min(all.bound, r.bound);
+      for (std::size_t k = 0; k < 3; ++k) {
+        all.lower[k] = std::min(all.lower[k], r.lower[k]);
+        all.upper[k] = std::max(all.upper[k], r.upper[k]);
+      }
+    }
+    const Worklist& work = leaves_[parents_[first]].work;
+    Scan_result scan;
+    if (last > first + 1) scan = engine_.scan(box_of(all), hole_of(all), all.bound, work);
+    const bool together = scan.finer;
+    for (std::uint32_t j = first; j < last; ++j) {
+      if (judged_[j].verdict != Verdict::open) continue;
+      const Requirement r = requirement(j);
+      if (!together) scan = engine_.scan(box_of(r), hole_of(r), r.bound, work);
+      judged_[j].verdict = scan.finer ? Verdict::good : Verdict::coarse;
+      if (!scan.finer) return;
+      if (!leaves_[parents_[j]].final) judged_[j].coarsest = scan.coarsest;
+    }
+  }
+
+  Requirement requirement(std::uint32_t j) const {
+    std::vector<Requirement> requirements;
+    Zone_condition().requirements(next_, j, requirements);
+    return requirements.front();
+  }
+  static Region_3 box_of(const Requirement& r) {
+    return {{r.lower[0], r.lower[1], r.lower[2]}, {r.upper[0], r.upper[1], r.upper[2]}};
+  }
+  static Region_3 hole_of(const Requirement& r) {
+    return {{r.hole_lower[0], r.hole_lower[1], r.hole_lower[2]}, {r.hole_upper[0], r.hole_upper[1], r.hole_upper[2]}};
+  }
+
   /// Most leaves are the same as in the attempt before.
   Judgement judge_again(std::uint32_t j, const std::vector<Judgement>& before) const {
     if (!before.empty()) {
       const std::uint32_t i = last_.find(next_[j]);
-      if (last_[i] == next_[j] && before[i].verdict != Verdict::untouched &&
+      if (last_[i] == next_[j] && before[i].verdict != Verdict::untouched && before[i].verdict != Verdict::open &&
           before[i].shortest == next_.shortest_touching_edge(j))
         return before[i];
     }
@@ -180,9 +230,7 @@ class Split_decision {
     Judgement result;
     result.shortest = next_.shortest_touching_edge(j);
     if (!split_[p] && result.shortest == leaves_[p].shortest) return result;
-    std::vector<Requirement> requirements;
-    Zone_condition().requirements(next_, j, requirements);
-    const Requirement& r = requirements.front();
+    const Requirement r = requirement(j);
     std::vector<std::uint32_t> around;
     next_.touching(j, around);
     around.push_back(j);
@@ -193,25 +241,14 @@ class Split_decision {
     }
     result.verdict = Verdict::pending;
     if (pending >= r.bound) return result;
-    Region_3 box, hole;
-    for (int k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::size_t>(k);
-      box.lower[k] = r.lower[a];
-      box.upper[k] = r.upper[a];
-      hole.lower[k] = r.hole_lower[a];
-      hole.upper[k] = r.hole_upper[a];
-    }
+    const Region_3 box = box_of(r);
     const bool reached = std::any_of(far_reaching_.begin(), far_reaching_.end(), [&](std::uint32_t i) {
       const Region_3 leaf = grown(leaf_region(octree_, i), 2 * leaves_[i].work.coarsest());
       for (int k = 0; k < 3; ++k)
         if (leaf.upper[k] < box.lower[k] || box.upper[k] < leaf.lower[k]) return false;
       return true;
     });
-    result.verdict = Verdict::good;
-    if (coarse < r.bound && !reached) return result;
-    const Scan_result scan = engine_.scan(box, hole, r.bound, leaves_[p].work);
-    if (scan.finer && !leaves_[p].final) result.coarsest = scan.coarsest;
-    if (!scan.finer) result.verdict = Verdict::coarse;
+    result.verdict = coarse < r.bound && !reached ? Verdict::good : Verdict::open;
     return result;
   }
 

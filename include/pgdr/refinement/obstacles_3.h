@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_REFINEMENT_OBSTACLES_3_H
+#define PGDR_REFINEMENT_OBSTACLES_3_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <pgdr/conforming/cavity_features_3.h>
+#include <pgdr/conforming/encroachment_3.h>
+#include <pgdr/refinement/tetrahedron_ball.h>
+
+namespace pgdr {
+
+/// The features that keep a point out of the volume: those that it encroaches, and those that it would delete.
+template <class Tr>
+class Obstacles_3 {
+ public:
+  using Complex = Constraint_complex_3<Tr>;
+  using Point = typename Tr::Point;
+
+  /// Looks through the features on the cavity of p. True if there is an obstacle.
+  bool collect(const Complex& complex, const Cavity_features_3<Tr>& features, const Point& p) {
+    subsegments_.clear();
+    subfacets_.clear();
+    for (const auto& f : features.subsegments())
+      if (f.deleted || is_encroached(complex.subsegment(f.slot), p))
+        subsegments_.push_back(complex.subsegment_id(f.slot));
+    for (const auto& f : features.subfacets()) {
+      const auto& t = complex.subfacet(f.slot);
+      if (!f.deleted && !is_encroached(t, p)) continue;
+      subfacets_.push_back(complex.subfacet_id(f.slot));
+      if (subfacets_.size() > 1 && is_below(complex, t, p)) std::swap(subfacets_.front(), subfacets_.back());
+    }
+    return !subsegments_.empty() || !subfacets_.empty();
+  }
+
+  /// What to split in the point's stead, in this order: only where there is no subsegment a subfacet, and among these
+  /// first the one below the point (the guarantee's factor sqrt(2) needs it).
+  bool are_subsegments() const { return !subsegments_.empty(); }
+  const std::vector<Piece_id>& to_split() const { return are_subsegments() ? subsegments_ : subfacets_; }
+
+ private:
+  /// Whether p's projection onto the facet falls into the subfacet.
+  static bool is_below(const Complex& complex, const typename Complex::Subfacet& t, const Point& p) {
+    const Vec_3 q = complex.plane(t.facet).project(to_vec(p));
+    const Point foot(q.x, q.y, q.z);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (complex.orientation(t.facet, t.vertices[i]->point(), t.vertices[(i + 1) % 3]->point(), foot) ==
+          CGAL::NEGATIVE)
+        return false;
+    return true;
+  }
+
+  std::vector<Piece_id> subsegments_;
+  std::vector<Piece_id> subfacets_;
+};
+
+/// The length that a split on behalf of a tetrahedron may not go below next to small angles: half its shortest
+/// edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on the shell of one
+/// acute corner the radius of the shell. A tetrahedron that is only too large may also halve its circumradius.
+template <class Cell_handle>
+double shortest_allowed(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners,
+                      bool is_over_ratio) {
+  double allowed = 0.5 * std::sqrt(ball.squared_shortest);
+  for (int i = 0; i < 4; ++i)
+    for (int j = i + 1; j < 4; ++j) {
+      const double d2 = squared_distance(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]);
+      if (d2 > ball.squared_shortest) continue;
+      const double shell = std::min(c->vertex(i)->insertion_radius(), c->vertex(j)->insertion_radius());
+      if (shell * shell > d2) allowed = std::max(allowed, shell);
+    }
+  return is_over_ratio ? allowed : std::min(allowed, 0.5 * std::sqrt(ball.squared_radius));
+}
+
+}  // namespace pgdr
+
+#endif
