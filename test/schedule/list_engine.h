@@ -36,8 +36,9 @@ struct List_engine {
   void receive(Worklist&, Parcel&&, double, double) const {}
   void activate(Worklist&, double, double) const {}
   pgdr::Work_estimate estimate(const Worklist& list) const { return list.estimate; }
-  pgdr::Scan_result scan(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound, const Worklist&) const {
-    return {finer(box, hole, bound), 0};
+  pgdr::Scan_result scan(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound,
+                         const Worklist& list) const {
+    return {finer(box, hole, bound), list.coarsest_radius};
   }
 
   /// Whether all elements that meet a box, but not those inside a hole in it, are smaller than a bound.

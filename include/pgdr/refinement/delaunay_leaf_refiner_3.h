@@ -275,7 +275,8 @@ class Delaunay_leaf_refiner_3 {
     std::swap(f.stranded(), list.stranded_);
     std::swap(f.fresh_cells(), list.fresh_);
     std::swap(f.unlabelled_cells(), list.unlabelled_);
-    f.set_torn(list.torn_);
+    // Beside a torn facet of another leaf, labels are as unknown as beside one of its own.
+    f.set_torn(list.torn_ || task.features_only);
     if (task.tag) {
       w.guard_.open(tr_, task.reach, task.tag);
       f.cavity().set_guard(&w.guard_);
