@@ -187,7 +187,8 @@ class Epoch_scheduler {
   void run_waves() {
     while (!stopped_ && wave()) {
       deliver_far();
-      settle(false);
+      // A task that was stopped still has pieces of its own to recover: until then nothing can be mended.
+      if (std::none_of(results_.begin(), results_.end(), [](const Drain_result& r) { return r.stopped; })) settle(false);
       report();
     }
   }
