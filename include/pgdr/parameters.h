@@ -47,6 +47,11 @@ struct Parameters {
   /// comparison; 1 is plain sequential refinement.
   int octree_depth = 0;
 
+  /// Leaves of the octree get smaller, and more of them can be worked on at once, only if the space around the domain is
+  /// refined with them. This many points out there may be spent on each point that waits inside. 1/2: less than what a
+  /// second thread saves.
+  double outside_points = 0.5;
+
   /// Keep a record of every leaf task, for a timeline or a replay: about 64 bytes each.
   bool record_tasks = false;
 

@@ -17,6 +17,7 @@
 #include <pgdr/parameters.h>
 #include <pgdr/refinement/delaunay_leaf_refiner_3.h>
 #include <pgdr/refinement/indexed_mesh_of_3.h>
+#include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/refined_mesh_3.h>
 #include <pgdr/schedule/epoch_scheduler.h>
@@ -29,17 +30,17 @@ namespace pgdr {
 namespace internal {
 
 /// One run from domain to refined mesh: recovery, subdomains, refinement, and the limits on all of them.
-template <class K, class Sizing>
+template <class K, class Sizing, class Placement = Circumcenter_placement>
 class Mesher_3 {
   using Mesh = Refined_mesh_3<K>;
   using Tr = typename Mesh::Triangulation;
   using Criteria = Quality_criteria_3<K, Sizing>;
-  using Engine = Delaunay_leaf_refiner_3<Tr, Criteria>;
+  using Engine = Delaunay_leaf_refiner_3<Tr, Criteria, Placement>;
   using Clock = std::chrono::steady_clock;
 
  public:
-  Mesher_3(Domain_3<K> domain, const Parameters& parameters)
-      : parameters_(parameters), mesh_(std::move(domain)), acute_(mesh_.domain()),
+  Mesher_3(Domain_3<K> domain, const Parameters& parameters, Placement placement = {})
+      : parameters_(parameters), placement_(std::move(placement)), mesh_(std::move(domain)), acute_(mesh_.domain()),
         min_edge_length_(parameters.min_edge_length > 0 ? parameters.min_edge_length
                                                         : 1e-9 * mesh_.domain().diagonal),
         features_(mesh_.triangulation(), mesh_.complex(), acute_, min_edge_length_) {
@@ -74,7 +75,7 @@ class Mesher_3 {
  private:
   void refine(const Sizing& sizing) {
     const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains());
-    Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_);
+    Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_, placement_);
     with_threads(parameters_.threads, [&] {
       Epoch_scheduler<Engine> scheduler(engine, parameters_, mesh_.triangulation().number_of_vertices());
       if (!scheduler.run())
@@ -131,6 +132,7 @@ class Mesher_3 {
   }
 
   const Parameters& parameters_;
+  Placement placement_;
   Mesh mesh_;
   Acute_neighborhood_3 acute_;
   double min_edge_length_;
@@ -148,13 +150,22 @@ class Mesher_3 {
 ///
 /// Ends for every domain without acute angles between facets (Shewchuk 1998); else a limit may end it, see
 /// `Run_statistics::stop`. \pre `validate_domain_3(domain)` finds no fault.
+/// `placement` says where in its selection ball the Steiner point of a tetrahedron goes.
 /// Throws `std::invalid_argument` for parameters without sense.
+template <class K, class Sizing, PointPlacement Placement>
+  requires SizingField<Sizing, K>
+Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters,
+                                Placement placement) {
+  if (!(parameters.radius_edge_ratio >= 2))
+    throw std::invalid_argument("the radius-edge ratio must be at least 2: below it the refinement need not end");
+  return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), parameters, std::move(placement)).run(sizing);
+}
+
+/// The same with Steiner points at circumcenters.
 template <class K, class Sizing>
   requires SizingField<Sizing, K>
 Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters = {}) {
-  if (!(parameters.radius_edge_ratio >= 2))
-    throw std::invalid_argument("the radius-edge ratio must be at least 2: below it the refinement need not end");
-  return internal::Mesher_3<K, Sizing>(std::move(domain), parameters).run(sizing);
+  return refine_mesh_3(std::move(domain), sizing, parameters, Circumcenter_placement());
 }
 
 /// The same from a PLC as the user wrote it. Throws `Input_error` with every problem that is found in it.

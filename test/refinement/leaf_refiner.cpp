@@ -112,6 +112,8 @@ class Interval_refiner {
     return e;
   }
 
+  double estimate_outside(const Worklist&, double) const { return 0; }
+
   pgdr::Scan_result scan(const Region_3&, const Region_3&, double bound, const Worklist& list) const {
     return {list.coarsest() < bound, list.coarsest()};
   }

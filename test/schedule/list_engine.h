@@ -28,6 +28,7 @@ struct List_engine {
     std::vector<Parcel>& outgoing() { return parcels; }
 
     pgdr::Work_estimate estimate;
+    double outside = 0;  ///< insertions that a split would ask for
     double coarsest_radius = 0, deferred_radius = 0;
     std::vector<Parcel> parcels;
   };
@@ -36,6 +37,7 @@ struct List_engine {
   void receive(Worklist&, Parcel&&, double, double) const {}
   void activate(Worklist&, double, double) const {}
   pgdr::Work_estimate estimate(const Worklist& list) const { return list.estimate; }
+  double estimate_outside(const Worklist& list, double) const { return list.outside; }
   pgdr::Scan_result scan(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound,
                          const Worklist& list) const {
     return {finer(box, hole, bound), list.coarsest_radius};

@@ -44,7 +44,7 @@ struct Situation {
 
   /// Decides; true if the octree changes. Then the answers are consistent, and what is new is balanced.
   bool decide() {
-    Decision decision(engine, octree, leaves);
+    Decision decision(engine, octree, leaves, 0.5);
     const bool change = decision.decide();
     split = decision.split();
     if (change) {
@@ -201,4 +201,20 @@ TEST_CASE("Who waits is asked to make room first", "[schedule]") {
   CHECK(s.decide());
   CHECK(s.split[eager] == 1);
   CHECK(s.split[waiting] == 0);
+}
+
+TEST_CASE("A split has to be worth what it costs outside the domain", "[schedule]") {
+  for (const double cost : {0.4e6, 0.6e6}) {
+    CAPTURE(cost);
+    Situation s(uniform(1));
+    s.add_work(0, 1e6);
+    s.leaves[7].work.outside = cost;
+    CHECK(s.decide() == (cost < 0.5e6));
+    CHECK(s.leaves[0].final == (cost > 0.5e6));
+  }
+  // What is outside far from everything that is split counts for nothing.
+  Situation s(uniform(2));
+  s.add_work(s.at(0.1, 0.1, 0.1), 1e6);
+  s.leaves[s.at(0.9, 0.9, 0.9)].work.outside = 1e9;
+  CHECK(s.decide());
 }

@@ -45,15 +45,16 @@ bool is_box(const Domain_3<K>& domain) {
   return true;
 }
 
-/// Inserts the domain's vertices, inside a box whose faces are about a diagonal away unless the domain is a box
-/// itself: the hull of the triangulation is always axis-aligned. Returns the handle of every domain vertex.
+/// Inserts the domain's vertices, inside a box whose faces are between half of the diagonal and twice of it away,
+/// unless the domain is a box itself: the hull of the triangulation is always axis-aligned. Farther away, more would
+/// have to be refined outside for leaves of the same size. Returns the handle of every domain vertex.
 template <class Tr, class K>
 std::vector<typename Tr::Vertex_handle> insert_domain_vertices(Tr& tr, const Domain_3<K>& domain) {
   using Point = typename Tr::Point;
   typename Tr::Vertex_handle last;
   if (!is_box(domain)) {
     // Rounded to few bits, so that the box's coordinates are exact in all that is computed from them.
-    const double margin = std::exp2(std::ceil(std::log2(domain.diagonal)));
+    const double margin = std::exp2(std::ceil(std::log2(domain.diagonal)) - 1);
     std::array<double, 3> lo, hi;
     for (std::size_t i = 0; i < 3; ++i) {
       lo[i] = std::floor((domain.lower[i] - margin) / margin) * margin;

@@ -178,6 +178,7 @@ class Cavity_3 {
         c->advance_generation();
         c->tds_data().clear();
         c->ball().forget();
+        c->set_poor(false);
       } else {
         c = tr_->tds().create_cell();
         if (guard_) guard_->adopt(c);

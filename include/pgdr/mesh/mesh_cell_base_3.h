@@ -62,6 +62,10 @@ class Mesh_cell_base_3 : public Cb {
   std::uint8_t subsegment_edges() const { return edges_; }
   void set_subsegment_edges(std::uint8_t e) { edges_ = e; }
 
+  /// Whether it is known to be poor, so that it is on the worklist of some leaf or was given up.
+  bool is_poor() const { return is_poor_; }
+  void set_poor(bool poor) { is_poor_ = poor; }
+
   unsigned int generation() const { return atomic_generation().load(std::memory_order_relaxed); }
   void advance_generation() { set_erase_counter(generation() + 1); }
 
@@ -81,6 +85,7 @@ class Mesh_cell_base_3 : public Cb {
   std::atomic_ref<unsigned int> atomic_generation() const { return std::atomic_ref<unsigned int>(generation_); }
 
   std::uint8_t edges_ = 0;
+  bool is_poor_ = false;
   mutable std::uint16_t owner_ = 0;
   mutable unsigned int generation_;
   std::int32_t subdomain_ = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include <pgdr/refinement/leaf_refiner.h>
 #include <pgdr/refinement/leaf_worklist_3.h>
 #include <pgdr/refinement/obstacles_3.h>
+#include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
@@ -26,15 +28,18 @@ namespace pgdr {
 
 // Length: the engine in one piece; what stands on its own is in obstacles_3.h, hull_box_3.h, box_scan_3.h, leaf_worklist_3.h.
 
-/// Sequential Delaunay refinement of one leaf: splits poor tetrahedra at their circumcenters until none is left
-/// (Shewchuk, *Tetrahedral mesh generation by Delaunay refinement*, 1998). A model of `LeafRefiner`.
+/// Sequential Delaunay refinement of one leaf: splits poor tetrahedra at their circumcenters (Shewchuk, *Tetrahedral
+/// mesh generation by Delaunay refinement*, 1998), or where else `Placement` says, until none is left. A model of
+/// `LeafRefiner`.
 ///
-/// A circumcenter that encroaches a subsegment or subfacet, or that would delete one, is not inserted; the feature
+/// A Steiner point that encroaches a subsegment or subfacet, or that would delete one, is not inserted; the feature
 /// is split instead. A tetrahedron is given up only next to a small input angle, when every such split would make
 /// an edge too short (`shortest_allowed`). Outside the domain, tetrahedra are refined only as far as the zone
 /// condition of the leaves needs it, and never at the expense of a feature.
-template <class Tr, class Criteria>
+template <class Tr, class Criteria, class Placement = Circumcenter_placement>
 class Delaunay_leaf_refiner_3 {
+  static_assert(PointPlacement<Placement>);
+
  public:
   using Cell_handle = typename Tr::Cell_handle;
   using Vertex_handle = typename Tr::Vertex_handle;
@@ -63,8 +68,9 @@ class Delaunay_leaf_refiner_3 {
   };
 
   Delaunay_leaf_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, const Criteria& criteria,
-                          double min_edge_length)
-      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length), hull_(tr) {}
+                          double min_edge_length, Placement placement = {})
+      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length),
+        placement_(std::move(placement)), hull_(tr) {}
 
   std::unique_ptr<Worker> make_worker() const {
     return std::make_unique<Worker>(tr_, complex_, acute_, min_edge_length_);
@@ -246,16 +252,23 @@ class Delaunay_leaf_refiner_3 {
       const Cell_id& id = list.deferred_[k];
       if (!id.is_live()) continue;
       const double size = criteria_.size_at(tetrahedron_ball(tetrahedron_points(id.cell)).center);
-      const double f = static_cast<double>(id.radius) / size;
-      e.insertions += static_cast<double>(std::min(step, n - k)) * std::max(1.0, std::min(f * f * f, 1e12));
+      e.insertions += static_cast<double>(std::min(step, n - k)) * expected_insertions(static_cast<double>(id.radius), size);
       e.largest_size = std::max(e.largest_size, size);
     }
     return e;
   }
 
+  double estimate_outside(const Worklist& list, double target) const {
+    double insertions = 0;
+    for (const Cell_id& id : list.outside_)
+      if (static_cast<double>(id.radius) > target && id.is_live())
+        insertions += expected_insertions(static_cast<double>(id.radius), target);
+    return insertions;
+  }
+
   /// Whether every tetrahedron that meets the box, but is not inside the hole, has m < bound. Reads only.
   Scan_result scan(const Region_3& box, const Region_3& hole, double bound, const Worklist& list) const {
-    return scan_box(tr_, criteria_, box, hole, bound, hull_.nearest(box), list.anchor());
+    return scan_box(tr_, box, hole, bound, hull_.nearest(box), list.anchor());
   }
 
   /// Whether every tetrahedron whose circumball meets the box has a circumradius < bound. Reads only.
@@ -317,7 +330,8 @@ class Delaunay_leaf_refiner_3 {
     const double r = std::sqrt(ball.squared_radius);
     c->ball().set(ball.center, r, ball_error);
     const float radius = upwards * static_cast<float>(r);
-    if (criteria_.is_poor(ball, c->subdomain()))
+    c->set_poor(criteria_.is_poor(ball, c->subdomain()));
+    if (c->is_poor())
       list.add_poor({c, c->generation(), radius}, w.task_.target);
     else
       note_coarse(c, static_cast<double>(radius), list);
@@ -360,39 +374,70 @@ class Delaunay_leaf_refiner_3 {
     if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
     const Tetrahedron_points corners = tetrahedron_points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    const Vec_3 center = outside ? hull_.attract(ball) : hull_.pull_in(ball.center, corners);
-    if (!w.task_.region.contains(center)) {
-      list.outgoing_.push_back({center, Parcel::Kind::poor, id, nullptr});
+    const Vec_3 at = steiner_point(outside, ball, corners);
+    if (!w.task_.region.contains(at)) {
+      list.outgoing_.push_back({at, Parcel::Kind::poor, id, nullptr});
       return;
     }
-    const Point p(center.x, center.y, center.z);
+    if (outside) return refine_outside(w, id, at, ball, corners, refused, list, result);
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    const bool found = outside ? cavity.find(p, id.cell, [&](Cell_handle c) { return !encroaches_subfacet_of(c, p); })
-                               : cavity.find(p, id.cell) || find_with_exact_center(w, id.cell, corners);
-    if (!found) return give_up(id, center, corners, list, result);
+    const Point p(at.x, at.y, at.z);
+    if (!cavity.find(p, id.cell) && !find_with_exact_center(w, id.cell, corners))
+      return give_up(id, at, corners, list, result);
+    w.features_.features().gather(complex_, cavity);
+    if (w.obstacles_.collect(complex_, w.features_.features(), p)) {
+      cavity.abandon();
+      return make_room(w, id, at, ball, corners, refused, list, result);
+    }
+    insert(w, p, std::sqrt(ball.squared_radius) - length(at - ball.center), list, result);
+  }
+
+  void refine_outside(Worker& w, const Cell_id& id, const Vec_3& at, const Tetrahedron_ball& ball,
+                      const Tetrahedron_points& corners, const std::vector<Piece_id>& refused, Worklist& list,
+                      Drain_result& result) {
+    switch (find_outside(w, id.cell, at)) {
+      case Obstruction::none:
+        insert(w, Point(at.x, at.y, at.z), std::sqrt(ball.squared_radius) - length(at - ball.center), list, result);
+        break;
+      case Obstruction::splits_anyway: make_room(w, id, at, ball, corners, refused, list, result); break;
+      case Obstruction::stays: give_up(id, at, corners, list, result); break;
+    }
+  }
+
+  enum class Obstruction : std::uint8_t { none, splits_anyway, stays };
+
+  /// Looks for the cavity of a point outside the domain, and leaves it marked if there is no obstruction.
+  Obstruction find_outside(Worker& w, Cell_handle c, const Vec_3& at) const {
+    Cavity_3<Tr>& cavity = w.features_.cavity();
+    const Point p(at.x, at.y, at.z);
+    std::optional<typename Tr::Facet> encroached;
+    if (!cavity.find(p, c, [&](Cell_handle d) { return !(encroached = encroached_subfacet_of(d, p)); })) {
+      if (!encroached || !is_split_anyway(*encroached)) return Obstruction::stays;
+      w.obstacles_.set_subfacet(complex_, encroached->first->subfacet(encroached->second));
+      return Obstruction::splits_anyway;
+    }
     w.features_.features().gather(complex_, cavity);
     const bool blocked = w.obstacles_.collect(complex_, w.features_.features(), p);
-    if (outside && (blocked || is_crowded(w, center))) {
-      cavity.abandon();
-      return give_up(id, center, corners, list, result);
-    }
-    if (blocked) {
-      cavity.abandon();
-      switch (split_obstacle(w, id, center, ball, corners, refused)) {
-        case Split_outcome::inserted:
-          if (id.is_live()) list.active_.push(id);
-          break;
-        case Split_outcome::refused: give_up(id, center, corners, list, result); break;
-        case Split_outcome::elsewhere: break;  // travels with the errand
-      }
-      return;
-    }
+    if (!blocked && !is_crowded(w, at)) return Obstruction::none;
+    cavity.abandon();
+    return blocked && w.obstacles_.keep_subsegments([this](std::uint32_t s) { return is_split_anyway(s); })
+               ? Obstruction::splits_anyway
+               : Obstruction::stays;
+  }
+
+  void insert(Worker& w, const Point& p, double insertion_radius, Worklist& list, Drain_result& result) {
+    Cavity_3<Tr>& cavity = w.features_.cavity();
     const Vertex_handle v = cavity.commit(p);
     v->set_feature(3, Tr::Vertex::none);
-    v->set_insertion_radius(std::sqrt(ball.squared_radius));
+    v->set_insertion_radius(insertion_radius);
     list.set_anchor(v);
     ++result.inserted;
     for (const Cell_handle c : cavity.star()) classify(w, c, list);
+  }
+
+  Vec_3 steiner_point(bool outside, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {
+    if (outside) return hull_.attract(ball);
+    return hull_.pull_in(placement_({corners, ball, criteria_.is_over_ratio(ball), criteria_.radius_edge_ratio()}), corners);
   }
 
   /// Good enough to find the leaf that will look at it; that one computes the point itself.
@@ -404,17 +449,36 @@ class Delaunay_leaf_refiner_3 {
       if (hull_.box().contains_closed(p)) return p;
     }
     const Tetrahedron_points corners = tetrahedron_points(c);
-    const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    return c->subdomain() == 0 ? hull_.attract(ball) : hull_.pull_in(ball.center, corners);
+    return steiner_point(c->subdomain() == 0, tetrahedron_ball(corners), corners);
   }
 
-  /// Whether p lies in the equatorial ball of a subfacet on the cell. A point outside the domain does so more often than
+  /// A subfacet on the cell in whose equatorial ball p lies. A point outside the domain lies in one more often than
   /// not, and its cavity is large: better to know at the first of its cells.
-  bool encroaches_subfacet_of(Cell_handle c, const Point& p) const {
-    if (!c->has_subfacet()) return false;
-    for (int i = 0; i < 4; ++i)
-      if (c->subfacet(i) != Complex::none && is_encroached(complex_.subfacet(c->subfacet(i)), p)) return true;
-    return false;
+  std::optional<typename Tr::Facet> encroached_subfacet_of(Cell_handle c, const Point& p) const {
+    if (c->has_subfacet())
+      for (int i = 0; i < 4; ++i)
+        if (c->subfacet(i) != Complex::none && is_encroached(complex_.subfacet(c->subfacet(i)), p))
+          return typename Tr::Facet(c, i);
+    return std::nullopt;
+  }
+
+  /// Whether the sizing field asks for smaller subfacets than this one, seen from outside: then a point outside may
+  /// split it, which the points inside have yet to do.
+  bool is_split_anyway(const typename Tr::Facet& f) const {
+    const Cell_handle inside = f.first->neighbor(f.second);
+    if (inside->subdomain() == 0 ||
+        !criteria_.is_over_size(tetrahedron_ball(tetrahedron_points(inside)), inside->subdomain()))
+      return false;
+    const auto& t = complex_.subfacet(f.first->subfacet(f.second));
+    const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
+    return triangle_circumradius(a, b, c) > criteria_.size_at(triangle_circumcenter(a, b, c));
+  }
+
+  /// The same of a subsegment.
+  bool is_split_anyway(std::uint32_t subsegment) const {
+    const auto& s = complex_.subsegment(subsegment);
+    const Vec_3 a = position(s.vertices[0]), b = position(s.vertices[1]);
+    return 0.5 * length(b - a) > criteria_.size_at(0.5 * (a + b));
   }
 
   /// Whether a point outside the domain would come closer to a vertex than the refinement out there needs.
@@ -428,6 +492,19 @@ class Delaunay_leaf_refiner_3 {
     const Vec_3 center = hull_.pull_in(exact_tetrahedron_ball(corners).center, corners);
     return w.task_.region.contains(center) &&
            w.features_.cavity().find(Point(center.x, center.y, center.z), c);
+  }
+
+  /// Splits an obstacle; the tetrahedron has another try if it is still there.
+  void make_room(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
+                 const Tetrahedron_points& corners, const std::vector<Piece_id>& refused, Worklist& list,
+                 Drain_result& result) const {
+    switch (split_obstacle(w, id, home, ball, corners, refused)) {
+      case Split_outcome::inserted:
+        if (id.is_live()) (id.cell->subdomain() == 0 ? list.active_outside_ : list.active_).push(id);
+        break;
+      case Split_outcome::refused: give_up(id, home, corners, list, result); break;
+      case Split_outcome::elsewhere: break;  // travels with the errand
+    }
   }
 
   /// Splits the first obstacle that lets itself be split, but for those that are known not to. An obstacle whose split
@@ -499,6 +576,7 @@ class Delaunay_leaf_refiner_3 {
   const Acute_neighborhood_3& acute_;
   const Criteria& criteria_;
   double min_edge_length_;
+  Placement placement_;
   Hull_box_3<Tr> hull_;
   bool collect_coarse_ = false;
 };

@@ -2,6 +2,7 @@
 #ifndef PGDR_REFINEMENT_LEAF_REFINER_H
 #define PGDR_REFINEMENT_LEAF_REFINER_H
 
+#include <algorithm>
 #include <atomic>
 #include <concepts>
 #include <cstddef>
@@ -41,6 +42,12 @@ struct Work_estimate {
   double largest_size = 0;  ///< value of the sizing field among them
 };
 
+/// Roughly how many points an element of radius `r` asks for, to be refined to `size` all over.
+inline double expected_insertions(double r, double size) {
+  const double f = r / size;
+  return std::max(1.0, std::min(f * f * f, 1e12));
+}
+
 /// What a scan of the elements around a box found.
 struct Scan_result {
   bool finer = false;   ///< all of them have m below the bound
@@ -59,6 +66,7 @@ struct Scan_result {
 /// worklist only: no clock, no addresses, no thread. `receive` puts a parcel into a worklist, `activate` applies a new
 /// target, `dispatch` empties a worklist, parcel by parcel, into a sink. `settle` does, alone, what no leaf could do:
 /// it takes it from all worklists that are torn.
+/// `estimate_outside` tells how many points the elements outside the domain ask for at a smaller target.
 /// `scan` looks at all elements that meet a box, to tell whether those that are not inside a hole in it have m below a
 /// bound; it only reads.
 template <class R>
@@ -78,6 +86,7 @@ concept LeafRefiner = requires(R refiner, typename R::Worker& worker, typename R
   { refiner.receive(list, std::move(parcel), number, number) };
   { refiner.activate(list, number, number) };
   { refiner.estimate(const_list) } -> std::same_as<Work_estimate>;
+  { refiner.estimate_outside(const_list, number) } -> std::convertible_to<double>;
   { refiner.scan(box, box, number, const_list) } -> std::same_as<Scan_result>;
   { list.reset_coarsest(number) };
 };

@@ -132,7 +132,7 @@ class Leaf_worklist_3 {
   bool has_active() const { return !active_.empty() || !active_outside_.empty(); }
 
  private:
-  template <class, class>
+  template <class, class, class>
   friend class Delaunay_leaf_refiner_3;
 
   /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.

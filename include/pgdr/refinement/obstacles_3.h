@@ -37,6 +37,19 @@ class Obstacles_3 {
     return !subsegments_.empty() || !subfacets_.empty();
   }
 
+  /// Takes one subfacet for the only obstacle.
+  void set_subfacet(const Complex& complex, std::uint32_t slot) {
+    subsegments_.clear();
+    subfacets_.assign(1, complex.subfacet_id(slot));
+  }
+
+  /// Leaves out the subsegments, by slot, that do not satisfy a predicate. False if none is left.
+  template <class Predicate>
+  bool keep_subsegments(const Predicate& predicate) {
+    std::erase_if(subsegments_, [&](const Piece_id& s) { return !predicate(s.slot); });
+    return !subsegments_.empty();
+  }
+
   /// What to split in the point's stead, in this order: only where there is no subsegment a subfacet, and among these
   /// first the one below the point (the guarantee's factor sqrt(2) needs it).
   bool are_subsegments() const { return !subsegments_.empty(); }

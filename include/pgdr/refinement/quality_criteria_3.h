@@ -19,7 +19,7 @@ class Quality_criteria_3 {
  public:
   Quality_criteria_3(double radius_edge_ratio, Sizing sizing, std::vector<Subdomain> subdomains)
       // A hair below the bound, so that whoever measures the written mesh in other arithmetic agrees.
-      : squared_ratio_(radius_edge_ratio * radius_edge_ratio * (1 - 1e-9)),
+      : radius_edge_ratio_(radius_edge_ratio), squared_ratio_(radius_edge_ratio * radius_edge_ratio * (1 - 1e-9)),
         sizing_(std::move(sizing)),
         subdomains_(std::move(subdomains)) {}
 
@@ -42,9 +42,11 @@ class Quality_criteria_3 {
   /// The sizing field, without the bounds on volume.
   double size_at(const Vec_3& p) const { return sizing_(typename K::Point_3(p.x, p.y, p.z)); }
 
+  double radius_edge_ratio() const { return radius_edge_ratio_; }
   const std::vector<Subdomain>& subdomains() const { return subdomains_; }
 
  private:
+  double radius_edge_ratio_;
   double squared_ratio_;
   Sizing sizing_;
   std::vector<Subdomain> subdomains_;

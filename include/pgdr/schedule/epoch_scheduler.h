@@ -94,7 +94,7 @@ class Epoch_scheduler {
 
   void decide_and_split() {
     double begin = recorder_.now();
-    Split_decision<Engine> decision(engine_, octree_, leaves_);
+    Split_decision<Engine> decision(engine_, octree_, leaves_, parameters_.outside_points);
     const bool change = decision.decide();
     recorder_.section("decision", true, begin);
     if (!change) return;

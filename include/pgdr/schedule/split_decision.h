@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -32,8 +33,9 @@ class Split_decision {
   /// later, since from then on the outside has to be refined as well.
   static constexpr double least_work = 4000, least_work_of_all = 10000;
 
-  Split_decision(const Engine& engine, const Linear_octree_3& octree, std::vector<Leaf>& leaves)
-      : engine_(engine), octree_(octree), leaves_(leaves), split_(octree.size(), 0), next_(octree), last_(octree) {}
+  /// `outside_points`: see `Parameters`.
+  Split_decision(const Engine& engine, const Linear_octree_3& octree, std::vector<Leaf>& leaves, double outside_points)
+      : engine_(engine), octree_(octree), leaves_(leaves), outside_points_(outside_points), split_(octree.size(), 0), next_(octree), last_(octree) {}
 
   /// True if the octree changes: see `split`, `next` and `parents`. Leaves that will not be split become final; where
   /// only deferred elements are in the way, the leaves around are asked to refine these first.
@@ -43,7 +45,10 @@ class Split_decision {
       close_under_balance();
       if (std::none_of(split_.begin(), split_.end(), [](std::uint8_t s) { return s; })) break;
       next_ = octree_.split(split_, &parents_);
-      if (check()) return true;
+      if (!check()) continue;
+      if (pays()) return true;
+      for (std::uint32_t i = 0; i < octree_.size(); ++i)
+        if (split_[i]) veto(i, true);
     }
     next_ = octree_;
     parents_.clear();
@@ -75,6 +80,7 @@ class Split_decision {
 
   void nominate() {
     std::vector<std::uint8_t> ended(octree_.size(), 0);
+    gain_.assign(octree_.size(), 0);
     tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
       Leaf& leaf = leaves_[i];
       leaf.work.measure_deferred();
@@ -87,6 +93,7 @@ class Split_decision {
         ended[i] = 1;
       } else {
         split_[i] = 1;
+        gain_[i] = e.insertions;
       }
     });
     progress_ = std::any_of(ended.begin(), ended.end(), [](std::uint8_t e) { return e; });
@@ -135,6 +142,23 @@ class Split_decision {
       leaves_[i].final = true;
       progress_ = true;
     }
+  }
+
+  /// Whether what is left to do is worth what has to be refined outside the domain for the sake of smaller leaves.
+  bool pays() const {
+    std::vector<double> target(octree_.size(), std::numeric_limits<double>::infinity());
+    for (std::uint32_t j = 0; j < next_.size(); ++j)
+      target[parents_[j]] = std::min(target[parents_[j]], zone_target(next_.shortest_touching_edge(j)));
+    std::vector<double> cost(octree_.size(), 0);
+    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+      if (target[i] < zone_target(leaves_[i].shortest)) cost[i] = engine_.estimate_outside(leaves_[i].work, target[i]);
+    });
+    double costs = 0, gains = 0;
+    for (std::uint32_t i = 0; i < octree_.size(); ++i) {
+      costs += cost[i];
+      if (split_[i]) gains += gain_[i];
+    }
+    return costs <= outside_points_ * gains;
   }
 
   /// Evaluates the zone condition where the octree changes. False if something was vetoed.
@@ -269,7 +293,9 @@ class Split_decision {
   const Engine& engine_;
   const Linear_octree_3& octree_;
   std::vector<Leaf>& leaves_;
+  double outside_points_;
   std::vector<std::uint8_t> split_;
+  std::vector<double> gain_;  ///< insertions that wait for the split
   std::vector<std::uint8_t> nominated_;
   std::vector<std::uint8_t> vetoed_;
   std::vector<std::uint32_t> far_reaching_;
