@@ -59,12 +59,12 @@ class Mesh_cell_base_3 : public Cb {
   }
 
   /// Set of `edge_bit`s of the edges that are subsegments.
-  std::uint8_t subsegment_edges() const { return edges_; }
-  void set_subsegment_edges(std::uint8_t e) { edges_ = e; }
+  std::uint8_t subsegment_edges() const { return flags_ & all_edges; }
+  void set_subsegment_edges(std::uint8_t e) { flags_ = static_cast<std::uint8_t>((flags_ & poor) | e); }
 
   /// Whether it is known to be poor, so that it is on the worklist of some leaf or was given up.
-  bool is_poor() const { return is_poor_; }
-  void set_poor(bool poor) { is_poor_ = poor; }
+  bool is_poor() const { return flags_ & poor; }
+  void set_poor(bool p) { flags_ = static_cast<std::uint8_t>((flags_ & all_edges) | (p ? poor : 0)); }
 
   unsigned int generation() const { return atomic_generation().load(std::memory_order_relaxed); }
   void advance_generation() { set_erase_counter(generation() + 1); }
@@ -84,8 +84,10 @@ class Mesh_cell_base_3 : public Cb {
  private:
   std::atomic_ref<unsigned int> atomic_generation() const { return std::atomic_ref<unsigned int>(generation_); }
 
-  std::uint8_t edges_ = 0;
-  bool is_poor_ = false;
+  static constexpr std::uint8_t all_edges = 63, poor = 64;
+
+  // With what the base leaves of its last eight bytes, the first three fill them: another byte would cost eight.
+  std::uint8_t flags_ = 0;
   mutable std::uint16_t owner_ = 0;
   mutable unsigned int generation_;
   std::int32_t subdomain_ = 0;
