@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Refines the unit cube to a given size, then lets CGAL build the Delaunay triangulation of the same vertices in
+// Refines the unit cube to a given size on one thread, then lets CGAL build the Delaunay triangulation of the same vertices in
 // bulk, and prints the ratio of the two times: what refinement costs over knowing the points beforehand.
 //
 // usage: bulk_construction [SIZE [REPETITIONS]]     default 0.017 (about a million tetrahedra), 3
@@ -45,7 +45,9 @@ int main(int argc, char** argv) {
     double refinement = 0;
     std::size_t cells = 0;
     {
-      const auto mesh = pgdr::refine_mesh_3(unit_cube(), pgdr::Uniform_sizing_field(size));
+      pgdr::Parameters parameters;
+      parameters.threads = 1;  // bulk construction without locks has one, too
+      const auto mesh = pgdr::refine_mesh_3(unit_cube(), pgdr::Uniform_sizing_field(size), parameters);
       for (const auto& [phase, s] : mesh.statistics().seconds) refinement += s;
       cells = mesh.triangulation().number_of_finite_cells();
       const auto& tr = mesh.triangulation();

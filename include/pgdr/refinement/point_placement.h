@@ -7,7 +7,6 @@
 #include <cstddef>
 
 #include <pgdr/independence/selection_ball.h>
-#include <pgdr/parameters.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
