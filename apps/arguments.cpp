@@ -77,6 +77,14 @@ unsigned parse_threads(const std::string& option, const std::string& text) {
   return value;
 }
 
+Point_placement parse_placement(const std::string& text) {
+  if (text == "circumcenter") return Point_placement::circumcenter;
+  if (text == "type1") return Point_placement::type1;
+  if (text == "type2") return Point_placement::type2;
+  if (text == "best-dihedral") return Point_placement::best_dihedral;
+  throw Usage_error("--placement must be circumcenter, type1, type2 or best-dihedral, not '" + text + "'");
+}
+
 Sizing_box parse_sizing_box(const std::string& text) {
   const auto fail = [&text](const std::string& why) -> Usage_error {
     return Usage_error("--refine-box: '" + text + "' " + why);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <pgdr/parameters.h>
 #include <pgdr/sizing/box_sizing_field.h>
 
 namespace pgdr::app {
@@ -34,6 +35,9 @@ std::size_t parse_count(const std::string& option, const std::string& text);
 
 /// A number of threads: a whole number from 0, for all that the machine has, to 1024.
 unsigned parse_threads(const std::string& option, const std::string& text);
+
+/// The value of `--placement`.
+Point_placement parse_placement(const std::string& text);
 
 /// The value of `--refine-box`: "x0,y0,z0,x1,y1,z1:R" with x0 < x1, y0 < y1, z0 < z1 and R > 0.
 Sizing_box parse_sizing_box(const std::string& text);

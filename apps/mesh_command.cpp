@@ -41,6 +41,7 @@ struct Mesh_arguments {
   std::string size;
   std::vector<std::string> refine_boxes;
   std::string radius_edge_ratio;
+  std::string placement;
   std::string min_edge_length;
   std::string max_vertices;
   std::string threads;
@@ -77,6 +78,11 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       .add_option("--radius-edge-ratio", arguments.radius_edge_ratio,
                   "Upper bound of circumradius over shortest edge, at least 2 (default 2)")
       ->type_name("B");
+  parser
+      .add_option("--placement", arguments.placement,
+                  "Where new points go: circumcenter (default), type1 or type2 (towards short edges), best-dihedral "
+                  "(three times slower, nearly no slivers)")
+      ->type_name("POLICY");
   arguments.domain.add_to(parser);
   parser.add_flag("--ignore-region-sizes", arguments.ignore_region_sizes,
                   "Leave out the volume bounds of the input's regions");
@@ -117,6 +123,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
   Parameters p;
   if (!arguments.radius_edge_ratio.empty())
     p.radius_edge_ratio = parse_ratio_bound("--radius-edge-ratio", arguments.radius_edge_ratio);
+  if (!arguments.placement.empty()) p.placement = parse_placement(arguments.placement);
   p.coplanar_tolerance = arguments.domain.tolerance();
   p.triangulate_facets = arguments.domain.triangulate;
   p.ignore_region_sizes = arguments.ignore_region_sizes;

@@ -15,11 +15,22 @@ struct Progress {
   std::size_t pending = 0;       ///< elements that wait to be looked at
 };
 
+/// Where the Steiner point of a poor tetrahedron goes; the policies are in refinement/point_placement.h.
+enum class Point_placement {
+  circumcenter,  ///< as far from all vertices as can be
+  type1,         ///< as near to the shortest edge as the type-I selection ball allows
+  type2,         ///< the same in the type-II selection ball
+  best_dihedral  ///< among a few points of the type-I ball the one with the best smallest dihedral angle around it
+};
+
 /// Everything that steers `refine_mesh_3`, with the reason for each default.
 struct Parameters {
   /// Upper bound of circumradius over shortest edge. 2 is the smallest bound that the
   /// termination proof of Delaunay refinement covers (Shewchuk 1998); smaller ones are refused.
   double radius_edge_ratio = 2.0;
+
+  /// Circumcenters give the fewest and most even tetrahedra for a given size.
+  Point_placement placement = Point_placement::circumcenter;
 
   /// Facets whose vertices lie this close to one plane, relative to the bounding box's diagonal, are fused.
   /// 1e-6 undoes single-precision files and is far below any feature that a simulation resolves.

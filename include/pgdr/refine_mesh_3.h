@@ -30,7 +30,7 @@ namespace pgdr {
 namespace internal {
 
 /// One run from domain to refined mesh: recovery, subdomains, refinement, and the limits on all of them.
-template <class K, class Sizing, class Placement = Circumcenter_placement>
+template <class K, class Sizing, class Placement>
 class Mesher_3 {
   using Mesh = Refined_mesh_3<K>;
   using Tr = typename Mesh::Triangulation;
@@ -39,7 +39,7 @@ class Mesher_3 {
   using Clock = std::chrono::steady_clock;
 
  public:
-  Mesher_3(Domain_3<K> domain, const Parameters& parameters, Placement placement = {})
+  Mesher_3(Domain_3<K> domain, const Parameters& parameters, Placement placement)
       : parameters_(parameters), placement_(std::move(placement)), mesh_(std::move(domain)), acute_(mesh_.domain()),
         min_edge_length_(parameters.min_edge_length > 0 ? parameters.min_edge_length
                                                         : 1e-9 * mesh_.domain().diagonal),
@@ -161,11 +161,11 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
   return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), parameters, std::move(placement)).run(sizing);
 }
 
-/// The same with Steiner points at circumcenters.
+/// The same with Steiner points where `parameters.placement` says.
 template <class K, class Sizing>
   requires SizingField<Sizing, K>
 Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters = {}) {
-  return refine_mesh_3(std::move(domain), sizing, parameters, Circumcenter_placement());
+  return refine_mesh_3(std::move(domain), sizing, parameters, Standard_placement{parameters.placement});
 }
 
 /// The same from a PLC as the user wrote it. Throws `Input_error` with every problem that is found in it.

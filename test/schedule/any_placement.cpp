@@ -64,27 +64,33 @@ void require_same_mesh_with(const Placement& placement, const pgdr::Plc& plc, co
   }
 }
 
-const Placement placements[] = {
-    {[](const Poor_tetrahedron& t) { return scattered(t, t.type_1_radius()); }},
-    {[](const Poor_tetrahedron& t) { return scattered(t, t.type_2_radius()); }},
-    {[](const Poor_tetrahedron& t) { return pgdr::Type_1_placement()(t); }},
-    {[](const Poor_tetrahedron& t) { return pgdr::Type_2_placement()(t); }},
-};
+const Placement in_type_1{[](const Poor_tetrahedron& t) { return scattered(t, t.type_1_radius()); }};
+const Placement in_type_2{[](const Poor_tetrahedron& t) { return scattered(t, t.type_2_radius()); }};
+const Placement near_edges{[](const Poor_tetrahedron& t) { return pgdr::Type_1_placement()(t); }};
+
+pgdr::Command_line_sizing around_the_body() {
+  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(0.9),
+                                   {{{-19.89, -5.65, -5.61}, {6.50, 8.05, 5.61}, 0.8}});
+}
 
 }  // namespace
 
 TEST_CASE("Steiner points may be anywhere in the selection ball", "[schedule]") {
   const auto plc = pgdr::read_plc(data_file("cube.poly"));
-  for (const Placement& placement : placements)
-    for (const double bound : {2.0, 4.0}) {
-      CAPTURE(&placement - placements, bound);
-      require_same_mesh_with(placement, plc, pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(0.023)), bound);
-    }
+  const pgdr::Command_line_sizing sizing(pgdr::Uniform_sizing_field(0.023));
+  require_same_mesh_with(in_type_1, plc, sizing, 2);
+  require_same_mesh_with(in_type_1, plc, sizing, 4);
+  require_same_mesh_with(in_type_2, plc, sizing, 4);
 }
 
 TEST_CASE("Steiner points may be anywhere in the selection ball around a body, too", "[schedule]") {
   const auto plc = pgdr::read_plc(data_file("winged_body_in_box.poly"));
-  const pgdr::Command_line_sizing sizing(pgdr::Uniform_sizing_field(0.9),
-                                         {{{-19.89, -5.65, -5.61}, {6.50, 8.05, 5.61}, 0.8}});
-  require_same_mesh_with(placements[0], plc, sizing, 2);
+  require_same_mesh_with(in_type_1, plc, around_the_body(), 2);
+  require_same_mesh_with(near_edges, plc, around_the_body(), 4);
+}
+
+TEST_CASE("The best of several points is the same for every number of threads", "[schedule]") {
+  pgdr::Parameters parameters;
+  parameters.placement = pgdr::Point_placement::best_dihedral;
+  require_same_mesh(pgdr::read_plc(data_file("winged_body_in_box.poly")), around_the_body(), 1, parameters);
 }

@@ -389,7 +389,48 @@ class Delaunay_leaf_refiner_3 {
       cavity.abandon();
       return make_room(w, id, at, ball, corners, refused, list, result);
     }
-    insert(w, p, std::sqrt(ball.squared_radius) - length(at - ball.center), list, result);
+    Vec_3 best = at;
+    if constexpr (ChoosingPlacement<Placement>) best = best_of_alternatives(w, id.cell, p, ball, corners);
+    insert(w, Point(best.x, best.y, best.z), std::sqrt(ball.squared_radius) - length(best - ball.center), list, result);
+  }
+
+  /// Where the placement offers a choice: the point whose star is best. Its cavity is the one that is found then.
+  /// \pre that of p is found, and nothing is in its way
+  Vec_3 best_of_alternatives(Worker& w, Cell_handle c, const Point& p, const Tetrahedron_ball& ball,
+                             const Tetrahedron_points& corners) const {
+    Point_choice choice;
+    placement_.alternatives(poor_tetrahedron(ball, corners), choice);
+    Vec_3 best = to_vec(p);
+    if (choice.empty()) return best;
+    Cavity_3<Tr>& cavity = w.features_.cavity();
+    double best_cosine = worst_cosine(cavity, best);
+    cavity.abandon();
+    for (const Vec_3& q : choice) {
+      if (!w.task_.region.contains(q) || !hull_.box().contains_closed(q)) continue;
+      const Point at(q.x, q.y, q.z);
+      if (!cavity.find(at, c)) continue;
+      w.features_.features().gather(complex_, cavity);
+      if (!w.obstacles_.collect(complex_, w.features_.features(), at))
+        if (const double cosine = worst_cosine(cavity, q); cosine < best_cosine) {
+          best_cosine = cosine;
+          best = q;
+        }
+      cavity.abandon();
+    }
+    cavity.find(Point(best.x, best.y, best.z), c);
+    w.features_.features().gather(complex_, cavity);
+    return best;
+  }
+
+  /// The largest cosine of a dihedral angle in the star of p over the boundary of its cavity.
+  static double worst_cosine(const Cavity_3<Tr>& cavity, const Vec_3& p) {
+    double worst = -1;
+    for (const auto& [c, i] : cavity.boundary()) {
+      Tetrahedron_points corners;
+      for (std::size_t j = 0; j < 4; ++j) corners[j] = static_cast<int>(j) == i ? p : position(c->vertex(static_cast<int>(j)));
+      worst = std::max(worst, largest_dihedral_cosine(corners));
+    }
+    return worst;
   }
 
   void refine_outside(Worker& w, const Cell_id& id, const Vec_3& at, const Tetrahedron_ball& ball,
@@ -437,7 +478,11 @@ class Delaunay_leaf_refiner_3 {
 
   Vec_3 steiner_point(bool outside, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {
     if (outside) return hull_.attract(ball);
-    return hull_.pull_in(placement_({corners, ball, criteria_.is_over_ratio(ball), criteria_.radius_edge_ratio()}), corners);
+    return hull_.pull_in(placement_(poor_tetrahedron(ball, corners)), corners);
+  }
+
+  Poor_tetrahedron poor_tetrahedron(const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {
+    return {corners, ball, criteria_.is_over_ratio(ball), criteria_.radius_edge_ratio()};
   }
 
   /// Good enough to find the leaf that will look at it; that one computes the point itself.

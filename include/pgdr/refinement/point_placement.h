@@ -6,7 +6,10 @@
 #include <concepts>
 #include <cstddef>
 
+#include <boost/container/static_vector.hpp>
+
 #include <pgdr/independence/selection_ball.h>
+#include <pgdr/parameters.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
@@ -38,6 +41,15 @@ concept PointPlacement = std::copy_constructible<P> && requires(const P& placeme
   { placement(t) } -> std::convertible_to<Vec_3>;
 };
 
+using Point_choice = boost::container::static_vector<Vec_3, 16>;
+
+/// A placement that offers more than one point: `placement.alternatives(tetrahedron, choice)` appends other points of
+/// the type-I ball. Among them and the first one, the engine takes the one whose star has the best smallest dihedral
+/// angle. Those that lie in another leaf, or encroach a feature, do not count.
+template <class P>
+concept ChoosingPlacement = PointPlacement<P> && requires(const P& placement, const Poor_tetrahedron& t,
+                                                          Point_choice& choice) { placement.alternatives(t, choice); };
+
 /// The circumcenter, as far from all vertices as can be.
 struct Circumcenter_placement {
   Vec_3 operator()(const Poor_tetrahedron& t) const { return t.ball.center; }
@@ -68,18 +80,57 @@ inline Vec_3 towards_shortest_edge(const Poor_tetrahedron& t, double radius) {
 }
 
 /// As close to the shortest edge as the type-I ball allows: the new tetrahedron at that edge is no worse than the
-/// bound asks, and no smaller than it has to be.
+/// bound asks, and no smaller than it has to be. What is too large only is split at its circumcenter: anywhere else
+/// would make more tetrahedra.
 struct Type_1_placement {
-  Vec_3 operator()(const Poor_tetrahedron& t) const { return towards_shortest_edge(t, t.type_1_radius()); }
+  Vec_3 operator()(const Poor_tetrahedron& t) const {
+    return t.is_over_ratio ? towards_shortest_edge(t, t.type_1_radius()) : t.ball.center;
+  }
 };
 
-/// The same in the type-II ball.
+/// The same in the type-II ball. At B = 2 that is the circumcenter.
 struct Type_2_placement {
-  Vec_3 operator()(const Poor_tetrahedron& t) const { return towards_shortest_edge(t, t.type_2_radius()); }
+  Vec_3 operator()(const Poor_tetrahedron& t) const {
+    return t.is_over_ratio ? towards_shortest_edge(t, t.type_2_radius()) : t.ball.center;
+  }
+};
+
+/// The circumcenter, with the corners of a cube and of an octahedron in the type-I ball to choose from.
+struct Best_dihedral_placement {
+  Vec_3 operator()(const Poor_tetrahedron& t) const { return t.ball.center; }
+  void alternatives(const Poor_tetrahedron& t, Point_choice& choice) const {
+    const double s = (1 - 1e-6) * t.type_1_radius();
+    if (!(s > 0)) return;
+    constexpr double third = 0.57735026918962576;  // of the square root of 3
+    for (int k = 0; k < 8; ++k)
+      choice.push_back(t.ball.center + s * third * Vec_3{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0});
+    for (int k = 0; k < 6; ++k) {
+      Vec_3 axis;
+      axis[k / 2] = k % 2 ? s : -s;
+      choice.push_back(t.ball.center + axis);
+    }
+  }
+};
+
+/// Any of these, named at run time.
+struct Standard_placement {
+  Point_placement policy = Point_placement::circumcenter;
+
+  Vec_3 operator()(const Poor_tetrahedron& t) const {
+    switch (policy) {
+      case Point_placement::type1: return Type_1_placement()(t);
+      case Point_placement::type2: return Type_2_placement()(t);
+      default: return t.ball.center;
+    }
+  }
+  void alternatives(const Poor_tetrahedron& t, Point_choice& choice) const {
+    if (policy == Point_placement::best_dihedral) Best_dihedral_placement().alternatives(t, choice);
+  }
 };
 
 static_assert(PointPlacement<Circumcenter_placement> && PointPlacement<Type_1_placement> &&
               PointPlacement<Type_2_placement>);
+static_assert(ChoosingPlacement<Best_dihedral_placement> && ChoosingPlacement<Standard_placement>);
 
 }  // namespace pgdr
 

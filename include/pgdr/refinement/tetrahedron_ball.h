@@ -80,6 +80,20 @@ inline Tetrahedron_ball tetrahedron_ball(const Tetrahedron_points& p) {
   return tetrahedron_ball(p[0], p[1], p[2], p[3]);
 }
 
+/// Cosine of the smallest of the six dihedral angles; 1 for a flat tetrahedron.
+inline double largest_dihedral_cosine(const Tetrahedron_points& p) {
+  const Vec_3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
+  // Outward normals of the four facets of a positive tetrahedron, each opposite to one corner.
+  const std::array<Vec_3, 4> n{cross(b - a, c - a), cross(c, b), cross(a, c), cross(b, a)};
+  double worst = -1;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const double lengths = std::sqrt(squared_length(n[i]) * squared_length(n[j]));
+      worst = std::max(worst, lengths > 0 ? -dot(n[i], n[j]) / lengths : 1.0);
+    }
+  return worst;
+}
+
 }  // namespace pgdr
 
 #endif
