@@ -374,33 +374,35 @@ class Delaunay_leaf_refiner_3 {
     if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
     const Tetrahedron_points corners = tetrahedron_points(id.cell);
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    const Vec_3 at = steiner_point(outside, ball, corners);
+    Vec_3 at = steiner_point(outside, ball, corners);
     if (!w.task_.region.contains(at)) {
       list.outgoing_.push_back({at, Parcel::Kind::poor, id, nullptr});
       return;
     }
     if (outside) return refine_outside(w, id, at, ball, corners, refused, list, result);
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    const Point p(at.x, at.y, at.z);
-    if (!cavity.find(p, id.cell) && !find_with_exact_center(w, id.cell, corners))
-      return give_up(id, at, corners, list, result);
+    if (!cavity.find(Point(at.x, at.y, at.z), id.cell)) {
+      // Rounding can put the center of a flat tetrahedron outside of its own ball.
+      const Vec_3 exact = hull_.pull_in(exact_tetrahedron_ball(corners).center, corners);
+      if (!w.task_.region.contains(exact) || !cavity.find(Point(exact.x, exact.y, exact.z), id.cell))
+        return give_up(id, at, corners, list, result);
+      at = exact;
+    }
     w.features_.features().gather(complex_, cavity);
-    if (w.obstacles_.collect(complex_, w.features_.features(), p)) {
+    if (w.obstacles_.collect(complex_, w.features_.features(), Point(at.x, at.y, at.z))) {
       cavity.abandon();
       return make_room(w, id, at, ball, corners, refused, list, result);
     }
-    Vec_3 best = at;
-    if constexpr (ChoosingPlacement<Placement>) best = best_of_alternatives(w, id.cell, p, ball, corners);
-    insert(w, Point(best.x, best.y, best.z), std::sqrt(ball.squared_radius) - length(best - ball.center), list, result);
+    if constexpr (ChoosingPlacement<Placement>) at = best_of_alternatives(w, id.cell, at, ball, corners);
+    insert(w, at, ball, list, result);
   }
 
   /// Where the placement offers a choice: the point whose star is best. Its cavity is the one that is found then.
-  /// \pre that of p is found, and nothing is in its way
-  Vec_3 best_of_alternatives(Worker& w, Cell_handle c, const Point& p, const Tetrahedron_ball& ball,
+  /// \pre that of `best` is found, and nothing is in its way
+  Vec_3 best_of_alternatives(Worker& w, Cell_handle c, Vec_3 best, const Tetrahedron_ball& ball,
                              const Tetrahedron_points& corners) const {
     Point_choice choice;
     placement_.alternatives(poor_tetrahedron(ball, corners), choice);
-    Vec_3 best = to_vec(p);
     if (choice.empty()) return best;
     Cavity_3<Tr>& cavity = w.features_.cavity();
     double best_cosine = worst_cosine(cavity, best);
@@ -437,9 +439,7 @@ class Delaunay_leaf_refiner_3 {
                       const Tetrahedron_points& corners, const std::vector<Piece_id>& refused, Worklist& list,
                       Drain_result& result) {
     switch (find_outside(w, id.cell, at)) {
-      case Obstruction::none:
-        insert(w, Point(at.x, at.y, at.z), std::sqrt(ball.squared_radius) - length(at - ball.center), list, result);
-        break;
+      case Obstruction::none: insert(w, at, ball, list, result); break;
       case Obstruction::splits_anyway: make_room(w, id, at, ball, corners, refused, list, result); break;
       case Obstruction::stays: give_up(id, at, corners, list, result); break;
     }
@@ -466,11 +466,12 @@ class Delaunay_leaf_refiner_3 {
                : Obstruction::stays;
   }
 
-  void insert(Worker& w, const Point& p, double insertion_radius, Worklist& list, Drain_result& result) {
+  /// Inserts the Steiner point of the tetrahedron that had this ball. \pre its cavity is found
+  void insert(Worker& w, const Vec_3& at, const Tetrahedron_ball& ball, Worklist& list, Drain_result& result) {
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    const Vertex_handle v = cavity.commit(p);
+    const Vertex_handle v = cavity.commit(Point(at.x, at.y, at.z));
     v->set_feature(3, Tr::Vertex::none);
-    v->set_insertion_radius(insertion_radius);
+    v->set_insertion_radius(std::sqrt(ball.squared_radius) - length(at - ball.center));
     list.set_anchor(v);
     ++result.inserted;
     for (const Cell_handle c : cavity.star()) classify(w, c, list);
@@ -516,7 +517,8 @@ class Delaunay_leaf_refiner_3 {
       return false;
     const auto& t = complex_.subfacet(f.first->subfacet(f.second));
     const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
-    return triangle_circumradius(a, b, c) > criteria_.size_at(triangle_circumcenter(a, b, c));
+    const Vec_3 center = triangle_circumcenter(a, b, c);
+    return length(center - a) > criteria_.size_at(center);
   }
 
   /// The same of a subsegment.
@@ -530,13 +532,6 @@ class Delaunay_leaf_refiner_3 {
   bool is_crowded(Worker& w, const Vec_3& p) const {
     const double least = 0.3 * w.task_.outside_target;
     return w.features_.cavity().squared_insertion_radius(p) < least * least;
-  }
-
-  /// Rounding can put the center of a flat tetrahedron outside of its own ball.
-  bool find_with_exact_center(Worker& w, Cell_handle c, const Tetrahedron_points& corners) const {
-    const Vec_3 center = hull_.pull_in(exact_tetrahedron_ball(corners).center, corners);
-    return w.task_.region.contains(center) &&
-           w.features_.cavity().find(Point(center.x, center.y, center.z), c);
   }
 
   /// Splits an obstacle; the tetrahedron has another try if it is still there.
