@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Refines the unit cube to a given size on one thread, then lets CGAL build the Delaunay triangulation of the same vertices in
-// bulk, and prints the ratio of the two times: what refinement costs over knowing the points beforehand.
+// Refines the unit cube to a given size on one thread, then lets CGAL build the Delaunay triangulation of the same
+// vertices in bulk, and prints the ratio of the two times: what refinement costs over knowing the points beforehand.
 //
 // usage: bulk_construction [SIZE [REPETITIONS]]     default 0.017 (about a million tetrahedra), 3
 

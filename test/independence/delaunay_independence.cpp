@@ -5,8 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <iterator>
-#include <vector>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -17,21 +15,6 @@
 using namespace pgdr_test;
 
 namespace {
-
-/// A cavity and one triangle of its boundary.
-struct Cavity {
-  Cavity(const Delaunay& t, const Point& p) {
-    t.find_conflicts(p, t.locate(p), std::back_inserter(boundary), std::back_inserter(cells));
-  }
-  bool meets(const Cavity& other) const {
-    for (const auto c : cells)
-      for (const auto d : other.cells)
-        if (c == d) return true;
-    return false;
-  }
-  std::vector<Delaunay::Cell_handle> cells;
-  std::vector<Delaunay::Facet> boundary;
-};
 
 void fill(Delaunay& t, const Cavity& cavity, const Point& p) {
   t.insert_in_hole(p, cavity.cells.begin(), cavity.cells.end(), cavity.boundary[0].first, cavity.boundary[0].second);

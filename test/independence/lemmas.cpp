@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The paper's lemmas 1 to 3 and corollary 1 (docs/theory.md, section 2), in numbers.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <numbers>
-#include <vector>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 
@@ -100,9 +97,8 @@ TEST_CASE("Lemma 3: no tetrahedron of a star is larger than both that met at its
         const auto [p, unused] = random_pair(arrangement, random);
         (void)unused;
         if (is_vertex(t, p)) continue;
-        std::vector<Delaunay::Facet> boundary;
-        t.find_conflicts(p, t.locate(p), std::back_inserter(boundary), CGAL::Emptyset_iterator());
-        for (const auto& [c, i] : boundary) {
+        const Cavity cavity(t, p);
+        for (const auto& [c, i] : cavity.boundary) {
           const Delaunay::Cell_handle beyond = c->neighbor(i);
           if (t.is_infinite(c) || t.is_infinite(beyond) || is_flat(c) || is_flat(beyond)) continue;
           const Point& u = c->vertex((i + 1) & 3)->point();
@@ -138,14 +134,9 @@ TEST_CASE("Corollary 1: disjoint cavities without a common triangle are enough",
       for (int n = 0; n < 20; ++n) {
         const auto [p, q] = random_pair(arrangement, random);
         if (p == q || is_vertex(t, p) || is_vertex(t, q)) continue;
-        std::vector<Delaunay::Facet> boundary;
-        std::vector<Delaunay::Cell_handle> at_p, at_q;
-        t.find_conflicts(p, t.locate(p), std::back_inserter(boundary), std::back_inserter(at_p));
-        t.find_conflicts(q, t.locate(q), CGAL::Emptyset_iterator(), std::back_inserter(at_q));
-        const auto in_q = [&](Delaunay::Cell_handle c) { return std::find(at_q.begin(), at_q.end(), c) != at_q.end(); };
-        if (std::any_of(at_p.begin(), at_p.end(), in_q)) continue;
-        if (std::any_of(boundary.begin(), boundary.end(),
-                        [&](const Delaunay::Facet& f) { return in_q(f.first->neighbor(f.second)); })) {
+        const Cavity at_p(t, p), at_q(t, q);
+        if (at_p.meets(at_q)) continue;
+        if (at_p.shares_triangle(at_q)) {
           ++sharing;
           continue;
         }

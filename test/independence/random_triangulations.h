@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -90,6 +92,23 @@ inline bool is_vertex(const Delaunay& t, const Point& p) {
   Delaunay::Vertex_handle v;
   return t.is_vertex(p, v);
 }
+
+/// The cavity of a point and the triangles of its boundary, as seen from inside.
+struct Cavity {
+  Cavity(const Delaunay& t, const Point& p) {
+    t.find_conflicts(p, t.locate(p), std::back_inserter(boundary), std::back_inserter(cells));
+  }
+  bool contains(Delaunay::Cell_handle c) const { return std::find(cells.begin(), cells.end(), c) != cells.end(); }
+  bool meets(const Cavity& other) const {
+    return std::any_of(cells.begin(), cells.end(), [&](Delaunay::Cell_handle c) { return other.contains(c); });
+  }
+  bool shares_triangle(const Cavity& other) const {
+    return std::any_of(boundary.begin(), boundary.end(),
+                       [&](const Delaunay::Facet& f) { return other.contains(f.first->neighbor(f.second)); });
+  }
+  std::vector<Delaunay::Cell_handle> cells;
+  std::vector<Delaunay::Facet> boundary;
+};
 
 }  // namespace pgdr_test
 

@@ -68,11 +68,6 @@ const Placement in_type_1{[](const Poor_tetrahedron& t) { return scattered(t, t.
 const Placement in_type_2{[](const Poor_tetrahedron& t) { return scattered(t, t.type_2_radius()); }};
 const Placement near_edges{[](const Poor_tetrahedron& t) { return pgdr::Type_1_placement()(t); }};
 
-pgdr::Command_line_sizing around_the_body() {
-  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(0.9),
-                                   {{{-19.89, -5.65, -5.61}, {6.50, 8.05, 5.61}, 0.8}});
-}
-
 }  // namespace
 
 TEST_CASE("Steiner points may be anywhere in the selection ball", "[schedule]") {

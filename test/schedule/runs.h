@@ -66,6 +66,12 @@ inline std::string difference(const Outcome& a, const std::string& bytes, const 
   return {};
 }
 
+/// Sizes for `data/winged_body_in_box.poly` with which its leaves run side by side.
+inline pgdr::Command_line_sizing around_the_body() {
+  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(0.9),
+                                   {{{-19.89, -5.65, -5.61}, {6.50, 8.05, 5.61}, 0.8}});
+}
+
 constexpr std::array<unsigned, 6> thread_counts{1, 2, 3, 4, 8, 16};
 
 /// Runs with every number of threads, `repetitions` times each, and compares everything with one checked run. There
