@@ -12,7 +12,7 @@
 #include "catch.h"
 #include "conforming/consistency.h"
 #include "conforming/gridded_box.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 
@@ -136,7 +136,7 @@ TEST_CASE("Flips keep the neighbours of subfacets in order", "[conforming]") {
   Initial initial(tilted(gridded_box(8)));
   Complex& complex = initial.complex;
   const auto subfacets = initial.subfacets();
-  Random random(21);
+  Seeded_random random(21);
   int flips = 0;
   for (int k = 0; k < 3000; ++k) {
     const std::uint32_t t = subfacets[random.below(static_cast<std::uint32_t>(subfacets.size()))];
@@ -206,7 +206,7 @@ TEST_CASE("Distances to small angles", "[conforming]") {
   const auto domain = pgdr::make_domain_3(prism);
   const pgdr::Acute_neighborhood_3 acute(domain);
   for (pgdr::Index v = 0; v < 6; ++v) CHECK(acute.is_acute_vertex(v) == (v == 0 || v == 3));
-  Random random(22);
+  Seeded_random random(22);
   int inside = 0;
   for (int k = 0; k < 500; ++k) {
     const pgdr::Vec_3 p{random.between(-2, 4), random.between(-2, 4), random.between(-2, 6)};

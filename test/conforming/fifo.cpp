@@ -7,13 +7,13 @@
 #include <memory>
 
 #include "catch.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 TEST_CASE("A queue gives back in order what was put in", "[conforming]") {
   // Long enough for the spent front to be cut off several times.
   pgdr::Fifo<std::uint32_t> queue;
   std::deque<std::uint32_t> expected;
-  pgdr_test::Random random(31);
+  pgdr_test::Seeded_random random(31);
   for (std::uint32_t k = 0; k < 50000; ++k) {
     const bool grows = k / 10000 % 2 == 0;
     if (expected.empty() || random.below(10) < (grows ? 7u : 3u)) {

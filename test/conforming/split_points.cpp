@@ -6,7 +6,7 @@
 #include <pgdr/domain/default_kernel.h>
 
 #include "catch.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 using pgdr::Vec_3;
@@ -23,7 +23,7 @@ bool equal(const Vec_3& a, const Vec_3& b) { return a.x == b.x && a.y == b.y && 
 
 TEST_CASE("A subsegment at one acute corner is split on a shell whose radius is a power of two",
           "[conforming]") {
-  Random random(1);
+  Seeded_random random(1);
   for (int k = 0; k < 2000; ++k) {
     const double size = std::pow(10, random.between(-6, 9));
     const Vec_3 a = random_vec(random, size), b = random_vec(random, size);
@@ -43,7 +43,7 @@ TEST_CASE("A subsegment at one acute corner is split on a shell whose radius is 
 }
 
 TEST_CASE("Segments of one acute corner are split at equal distances from it", "[conforming]") {
-  Random random(2);
+  Seeded_random random(2);
   const Vec_3 corner{1, 2, 3};
   double first = 0;
   for (int k = 0; k < 100; ++k) {
@@ -65,7 +65,7 @@ TEST_CASE("Other subsegments are split at their midpoints", "[conforming]") {
 }
 
 TEST_CASE("The split point keeps the coordinates that both ends share", "[conforming]") {
-  Random random(3);
+  Seeded_random random(3);
   for (int k = 0; k < 1000; ++k) {
     CAPTURE(k);
     const Vec_3 a = random_vec(random, 1e5);
@@ -79,7 +79,7 @@ TEST_CASE("The split point keeps the coordinates that both ends share", "[confor
 
 TEST_CASE("The circumcenter is that of the triangle and does not depend on the order of its vertices",
           "[conforming]") {
-  Random random(4);
+  Seeded_random random(4);
   for (int k = 0; k < 1000; ++k) {
     CAPTURE(k);
     const Vec_3 p[3] = {random_vec(random), random_vec(random), random_vec(random)};
@@ -95,7 +95,7 @@ TEST_CASE("The circumcenter is that of the triangle and does not depend on the o
 }
 
 TEST_CASE("Points are projected to axis-aligned facets exactly", "[conforming]") {
-  Random random(5);
+  Seeded_random random(5);
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0})
       for (int k = 0; k < 100; ++k) {
@@ -112,7 +112,7 @@ TEST_CASE("Points are projected to axis-aligned facets exactly", "[conforming]")
 }
 
 TEST_CASE("A projected point is the foot of the perpendicular", "[conforming]") {
-  Random random(6);
+  Seeded_random random(6);
   for (int k = 0; k < 500; ++k) {
     CAPTURE(k);
     const Vec_3 origin = random_vec(random), p = random_vec(random);
@@ -127,7 +127,7 @@ TEST_CASE("A projected point is the foot of the perpendicular", "[conforming]") 
 
 TEST_CASE("Orientations in a facet are counterclockwise about its normal", "[conforming]") {
   using K = pgdr::Default_kernel;
-  Random random(7);
+  Seeded_random random(7);
   int positive = 0;
   for (int k = 0; k < 500; ++k) {
     CAPTURE(k);

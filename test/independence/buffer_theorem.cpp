@@ -14,27 +14,21 @@
 #include <pgdr/octree/linear_octree_3.h>
 
 #include "catch.h"
-#include "independence/random_triangulations.h"
+#include "independence/zone_reach.h"
 #include "octree/random_octree.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 using pgdr::Linear_octree_3;
 
 namespace {
 
-using Coordinates = std::array<double, 3>;
-
 /// What (18) asks of a circumball: the smallest l(L')/6 among the leaves that it meets, times a factor.
 double allowed_radius(const Linear_octree_3& octree, const Point& center, double radius, double factor) {
   double allowed = 1e300;
   for (std::uint32_t i = 0; i < octree.size(); ++i) {
-    double d2 = 0;
-    for (int k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::size_t>(k);
-      const double d = std::max({octree.lower(i)[a] - center[k], 0.0, center[k] - octree.upper(i)[a]});
-      d2 += d * d;
-    }
-    if (d2 < radius * radius) allowed = std::min(allowed, factor * octree.edge(i) / 6);
+    if (squared_distance_to_box(octree.lower(i), octree.upper(i), center) < radius * radius)
+      allowed = std::min(allowed, factor * octree.edge(i) / 6);
   }
   return allowed;
 }
@@ -145,9 +139,7 @@ std::vector<Linear_octree_3> octrees(Random& random) {
 }  // namespace
 
 TEST_CASE("Theorem 3: beyond the buffer points are strongly independent", "[independence]") {
-  const std::uint64_t seed = 18;
-  CAPTURE(seed);
-  Random random(seed);
+  Seeded_random random(18);
   std::size_t pairs = 0, displaced = 0;
   for (const Linear_octree_3& octree : octrees(random)) {
     const Delaunay t = mesh_for(octree, 1, random);
@@ -162,11 +154,10 @@ TEST_CASE("Theorem 3: beyond the buffer points are strongly independent", "[inde
 }
 
 TEST_CASE("With a constant of one instead of a sixth theorem 3 is wrong", "[independence]") {
-  const std::uint64_t seed = 19;
-  CAPTURE(seed);
-  Random random(seed);
+  Seeded_random random(19);
   std::size_t dependent = 0;
   for (const Linear_octree_3& octree : octrees(random))
-    for (int k = 0; k < 3; ++k) dependent += try_pairs(octree, mesh_for(octree, 6, random), 500, random).dependent;
+    for (int k = 0; k < 3; ++k)
+      dependent += try_pairs(octree, mesh_for(octree, 6, random), 500, random).dependent;
   CHECK(dependent > 0);
 }

@@ -10,12 +10,13 @@
 
 #include "catch.h"
 #include "octree/random_octree.h"
+#include "seeded_random.h"
 
 using pgdr::Buffer_condition;
 using pgdr::Linear_octree_3;
 using pgdr::Requirement;
 using pgdr::Zone_condition;
-using pgdr_test::Random;
+using pgdr_test::Seeded_random;
 using pgdr_test::unit_cube;
 
 TEST_CASE("the zone condition asks for m < l*/8 within 3/8 l* of the leaf") {
@@ -40,7 +41,7 @@ TEST_CASE("the zone condition asks for m < l*/8 within 3/8 l* of the leaf") {
 }
 
 TEST_CASE("the zones of leaves that do not conflict are disjoint, by the requirements themselves") {
-  Random random(51);
+  Seeded_random random(51);
   std::size_t pairs = 0, closer = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const auto box = pgdr::Octree_box::around({-7.3, 0.1, 2}, {-6.1, 1.4, 2.2});
@@ -79,7 +80,7 @@ TEST_CASE("the zones of leaves that do not conflict are disjoint, by the require
 }
 
 TEST_CASE("the buffer condition asks for a sixth of the edge of every leaf of BUF") {
-  Random random(52);
+  Seeded_random random(52);
   for (int trial = 0; trial < 30; ++trial) {
     const Linear_octree_3 octree = pgdr_test::random_octree(random, unit_cube(), 5, 100);
     std::vector<Requirement> requirements;

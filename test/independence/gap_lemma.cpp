@@ -10,10 +10,11 @@
 
 #include "catch.h"
 #include "octree/random_octree.h"
+#include "seeded_random.h"
 
 using pgdr::Linear_octree_3;
 using pgdr::Octree_key;
-using pgdr_test::Random;
+using pgdr_test::Seeded_random;
 using pgdr_test::unit_cube;
 
 namespace {
@@ -131,7 +132,7 @@ TEST_CASE("gap lemma: every octree of two levels, leaf by leaf") {
 }
 
 TEST_CASE("gap lemma: random octrees, balanced and not") {
-  Random random(41);
+  Seeded_random random(41);
   Tally tally;
   std::size_t steep = 0;
   for (int trial = 0; trial < 400; ++trial) {

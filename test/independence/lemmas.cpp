@@ -12,6 +12,7 @@
 
 #include "catch.h"
 #include "independence/random_triangulations.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 
@@ -22,16 +23,17 @@ double circumradius(const Point& a, const Point& b, const Point& c, const Point&
 }
 
 double circumradius(Delaunay::Cell_handle c) {
-  return circumradius(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
+  return circumradius(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                      c->vertex(3)->point());
 }
 
 /// Computed radii of tetrahedra that are not too flat are right to this, relatively.
 constexpr double rounding = 1e-6;
 
 bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const double longest = std::max({CGAL::squared_distance(a, b), CGAL::squared_distance(a, c),
-                                   CGAL::squared_distance(a, d), CGAL::squared_distance(b, c),
-                                   CGAL::squared_distance(b, d), CGAL::squared_distance(c, d)});
+  const double longest =
+      std::max({CGAL::squared_distance(a, b), CGAL::squared_distance(a, c), CGAL::squared_distance(a, d),
+                CGAL::squared_distance(b, c), CGAL::squared_distance(b, d), CGAL::squared_distance(c, d)});
   return std::abs(CGAL::volume(a, b, c, d)) < 1e-6 * longest * std::sqrt(longest);
 }
 
@@ -45,23 +47,22 @@ TEST_CASE("Lemma 1: in the plane, between a disk and its reflection a triangle h
           "[independence]") {
   // An edge from (-1, 0) to (1, 0), a disk through its ends with the center at height t, the reflected disk, and a point
   // above the edge that is in the disk, but not in the reflected one.
-  Random random(3);
+  Seeded_random random(3);
   std::size_t inside = 0;
   for (int k = 0; k < 100000; ++k) {
     const double t = random.between(-3, 3), r = std::hypot(1, t);
     const double x = random.between(-5, 5), y = random.between(1e-3, 6);
     if (std::hypot(x, y - t) >= r || std::hypot(x, y + t) < r) continue;
     ++inside;
-    const double height = (x * x + y * y - 1) / (2 * y);  // of the center of the circle through the three points
+    const double height =
+        (x * x + y * y - 1) / (2 * y);  // of the center of the circle through the three points
     REQUIRE(std::hypot(1, height) <= r * (1 + 1e-12));
   }
   CHECK(inside > 5000);
 }
 
 TEST_CASE("Lemma 2: outside the reflected ball a tetrahedron has no larger circumradius", "[independence]") {
-  const std::uint64_t seed = 4;
-  CAPTURE(seed);
-  Random random(seed);
+  Seeded_random random(4);
   std::size_t inside = 0, larger_outside_of_both = 0;
   while (inside < 20000) {
     const Point a = random_point(Arrangement::random, random), b = random_point(Arrangement::random, random),
@@ -85,10 +86,9 @@ TEST_CASE("Lemma 2: outside the reflected ball a tetrahedron has no larger circu
   CHECK(larger_outside_of_both > 1000);  // so that the condition is of use
 }
 
-TEST_CASE("Lemma 3: no tetrahedron of a star is larger than both that met at its triangle", "[independence]") {
-  const std::uint64_t seed = 5;
-  CAPTURE(seed);
-  Random random(seed);
+TEST_CASE("Lemma 3: no tetrahedron of a star is larger than both that met at its triangle",
+          "[independence]") {
+  Seeded_random random(5);
   for (const Arrangement arrangement : arrangements) {
     std::size_t triangles = 0, larger_than_inner = 0, larger_than_outer = 0;
     for (int k = 0; k < 100; ++k) {
@@ -124,9 +124,7 @@ TEST_CASE("Lemma 3: no tetrahedron of a star is larger than both that met at its
 }
 
 TEST_CASE("Corollary 1: disjoint cavities without a common triangle are enough", "[independence]") {
-  const std::uint64_t seed = 6;
-  CAPTURE(seed);
-  Random random(seed);
+  Seeded_random random(6);
   std::size_t apart = 0, sharing = 0;
   for (const Arrangement arrangement : arrangements)
     for (int k = 0; k < 100; ++k) {

@@ -22,15 +22,16 @@ using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
 using Point = Kernel::Point_3;
 
 enum class Arrangement {
-  random,      ///< anywhere in the unit cube
-  gridded,     ///< on a coarse grid, so that most spheres have more than four points
-  cospherical, ///< on two concentric spheres, exactly, and around their center
-  coplanar,    ///< on three parallel planes
-  nearly_flat  ///< on a coarse grid, moved inwards by a few units in the last place
+  random,       ///< anywhere in the unit cube
+  gridded,      ///< on a coarse grid, so that most spheres have more than four points
+  cospherical,  ///< on two concentric spheres, exactly, and around their center
+  coplanar,     ///< on three parallel planes
+  nearly_flat   ///< on a coarse grid, moved inwards by a few units in the last place
 };
 
-constexpr std::array<Arrangement, 5> arrangements{Arrangement::random, Arrangement::gridded, Arrangement::cospherical,
-                                                  Arrangement::coplanar, Arrangement::nearly_flat};
+constexpr std::array<Arrangement, 5> arrangements{Arrangement::random, Arrangement::gridded,
+                                                  Arrangement::cospherical, Arrangement::coplanar,
+                                                  Arrangement::nearly_flat};
 
 inline const char* name(Arrangement a) {
   constexpr const char* names[] = {"random", "gridded", "cospherical", "coplanar", "nearly flat"};
@@ -42,23 +43,28 @@ inline Point random_point(Arrangement a, Random& random) {
   const auto any = [&] { return random.between(-1, 1); };
   const auto grid = [&] { return static_cast<double>(random.below(5)) / 2 - 1; };
   switch (a) {
-    case Arrangement::random: return Point(any(), any(), any());
-    case Arrangement::gridded: return Point(grid(), grid(), grid());
+    case Arrangement::random:
+      return Point(any(), any(), any());
+    case Arrangement::gridded:
+      return Point(grid(), grid(), grid());
     case Arrangement::cospherical: {
       // The points (x, y, z) of x^2 + y^2 + z^2 = 1 from Pythagorean quadruples, and half of them.
-      constexpr int quadruples[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7}, {1, 4, 8, 9}, {4, 4, 7, 9}, {0, 3, 4, 5}, {0, 0, 1, 1}};
+      constexpr int quadruples[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7}, {1, 4, 8, 9},
+                                       {4, 4, 7, 9}, {0, 3, 4, 5}, {0, 0, 1, 1}};
       const auto& q = quadruples[random.below(6)];
       std::array<std::size_t, 3> order{0, 1, 2};
       std::swap(order[0], order[random.below(3)]);
       std::swap(order[1], order[1 + random.below(2)]);
       // Over the common denominator 315 all of them are whole, so that the spheres have radius 315 exactly.
       std::array<double, 3> p{};
-      for (std::size_t i = 0; i < 3; ++i) p[i] = (random.below(2) ? 1 : -1) * q[order[i]] * (315.0 / q[3]) / 512;
+      for (std::size_t i = 0; i < 3; ++i)
+        p[i] = (random.below(2) ? 1 : -1) * q[order[i]] * (315.0 / q[3]) / 512;
       const double s = random.below(3) ? 1 : 0.5;
       if (random.below(20) == 0) return Point(0.1 * any(), 0.1 * any(), 0.1 * any());
       return Point(s * p[0], s * p[1], s * p[2]);
     }
-    case Arrangement::coplanar: return Point(any(), any(), static_cast<double>(random.below(3)) - 1);
+    case Arrangement::coplanar:
+      return Point(any(), any(), static_cast<double>(random.below(3)) - 1);
     case Arrangement::nearly_flat: {
       const auto jitter = [&] { return grid() * (1 - 0x1p-52 * static_cast<double>(random.below(5))); };
       return Point(jitter(), jitter(), jitter());
@@ -98,9 +104,12 @@ struct Cavity {
   Cavity(const Delaunay& t, const Point& p) {
     t.find_conflicts(p, t.locate(p), std::back_inserter(boundary), std::back_inserter(cells));
   }
-  bool contains(Delaunay::Cell_handle c) const { return std::find(cells.begin(), cells.end(), c) != cells.end(); }
+  bool contains(Delaunay::Cell_handle c) const {
+    return std::find(cells.begin(), cells.end(), c) != cells.end();
+  }
   bool meets(const Cavity& other) const {
-    return std::any_of(cells.begin(), cells.end(), [&](Delaunay::Cell_handle c) { return other.contains(c); });
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](Delaunay::Cell_handle c) { return other.contains(c); });
   }
   bool shares_triangle(const Cavity& other) const {
     return std::any_of(boundary.begin(), boundary.end(),

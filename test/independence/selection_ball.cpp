@@ -8,10 +8,11 @@
 #include <pgdr/refinement/point_placement.h>
 
 #include "catch.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 using pgdr::Vec_3;
 using pgdr_test::Random;
+using pgdr_test::Seeded_random;
 
 namespace {
 
@@ -28,10 +29,11 @@ double nearest_corner(const pgdr::Tetrahedron_points& corners, const Vec_3& p) {
 }  // namespace
 
 TEST_CASE("A point of a selection ball keeps its distance from the corners", "[independence]") {
-  Random random(11);
+  Seeded_random random(11);
   std::size_t over = 0, under = 0;
   for (int k = 0; k < 20000; ++k) {
-    const pgdr::Tetrahedron_points corners{any_point(random), any_point(random), any_point(random), any_point(random)};
+    const pgdr::Tetrahedron_points corners{any_point(random), any_point(random), any_point(random),
+                                           any_point(random)};
     const pgdr::Tetrahedron_ball ball = pgdr::tetrahedron_ball(corners);
     const double r = std::sqrt(ball.squared_radius), l = std::sqrt(ball.squared_shortest);
     const double bound = random.below(2) ? 2 : random.between(2, 6);

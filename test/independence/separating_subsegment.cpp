@@ -9,6 +9,7 @@
 
 #include "catch.h"
 #include "independence/random_triangulations.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 
@@ -27,7 +28,8 @@ bool is_witness(const Delaunay& t, const Point& p, const Point& q, const pgdr::S
   for (const Delaunay::Cell_handle c : t.finite_cell_handles()) {
     const Point center = t.dual(c);
     const double r = std::sqrt(CGAL::squared_distance(center, c->vertex(0)->point()));
-    if (std::sqrt(CGAL::squared_distance(center, piece)) < r * (1 - 1e-9) && 2 * r > length * (1 + 1e-9)) return false;
+    if (std::sqrt(CGAL::squared_distance(center, piece)) < r * (1 - 1e-9) && 2 * r > length * (1 + 1e-9))
+      return false;
   }
   return length > 0;
 }
@@ -48,9 +50,7 @@ Delaunay fine_triangulation(Arrangement a, Random& random) {
 }  // namespace
 
 TEST_CASE("Theorem 2 implies theorem 1", "[independence]") {
-  const std::uint64_t seed = 2008;
-  CAPTURE(seed);
-  Random random(seed);
+  Seeded_random random(2008);
   std::size_t pairs = 0, all_found = 0, all_missed = 0;
   for (const Arrangement arrangement : arrangements) {
     std::size_t found = 0, missed = 0, dependent = 0;
@@ -77,7 +77,8 @@ TEST_CASE("Theorem 2 implies theorem 1", "[independence]") {
     all_found += found;
     all_missed += missed;
   }
-  UNSCOPED_INFO("independent pairs that theorem 2 misses: " << 100 * all_missed / (all_found + all_missed) << " %");
+  UNSCOPED_INFO("independent pairs that theorem 2 misses: " << 100 * all_missed / (all_found + all_missed)
+                                                            << " %");
   CHECK(pairs >= 20000);
   CHECK(all_found > 1000);
   CHECK(all_missed > 1000);

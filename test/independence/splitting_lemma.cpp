@@ -10,10 +10,11 @@
 
 #include "catch.h"
 #include "octree/random_octree.h"
+#include "seeded_random.h"
 
 using pgdr::Linear_octree_3;
 using pgdr::Requirement;
-using pgdr_test::Random;
+using pgdr_test::Seeded_random;
 using pgdr_test::unit_cube;
 
 namespace {
@@ -66,7 +67,7 @@ std::size_t breaches(const Linear_octree_3& octree, const Linear_octree_3& finer
 }  // namespace
 
 TEST_CASE("splitting lemma: refined to l*/16, a balanced split keeps the zone condition") {
-  Random random(61);
+  Seeded_random random(61);
   std::size_t split_leaves = 0, above = 0, unrestricted = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Linear_octree_3 octree = pgdr_test::balanced(pgdr_test::random_octree(random, unit_cube(), 4, 40));

@@ -15,7 +15,7 @@
 #include <pgdr/domain/default_kernel.h>
 
 #include "catch.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 
@@ -35,7 +35,7 @@ Points box_corners() {
 }
 
 Points random_points(std::size_t n, std::uint64_t seed) {
-  Random random(seed);
+  Seeded_random random(seed);
   Points points;
   for (std::size_t i = 0; i < n; ++i)
     points.emplace_back(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2));
@@ -58,7 +58,7 @@ Points cospherical_points(std::size_t rounded, std::uint64_t seed) {
     for (int y = -65; y <= 65; ++y)
       for (int z = -65; z <= 65; ++z)
         if (x * x + y * y + z * z == 65 * 65) points.emplace_back(x / 64.0, y / 64.0, z / 64.0);
-  Random random(seed);
+  Seeded_random random(seed);
   while (rounded > 0) {
     const double x = random.between(-1, 1), y = random.between(-1, 1), z = random.between(-1, 1);
     const double r = std::sqrt(x * x + y * y + z * z);
@@ -71,7 +71,7 @@ Points cospherical_points(std::size_t rounded, std::uint64_t seed) {
 
 template <class T>
 void shuffle(std::vector<T>& items, std::uint64_t seed) {
-  Random random(seed);
+  Seeded_random random(seed);
   for (std::size_t i = items.size(); i > 1; --i)
     std::swap(items[i - 1], items[random.below(static_cast<std::uint32_t>(i))]);
 }
@@ -267,7 +267,7 @@ TEST_CASE("The generation of a slot survives that the container takes it back", 
 TEST_CASE("The star inherits subdomain, subfacets and subsegments from the cavity", "[mesh]") {
   Tr tr;
   insert(tr, random_points(300, 12));
-  Random random(13);
+  Seeded_random random(13);
   // Marks at random, each the same from both sides of a facet and all around an edge.
   for (auto c = tr.all_cells_begin(); c != tr.all_cells_end(); ++c)
     c->set_subdomain(static_cast<std::int32_t>(random.below(5)));

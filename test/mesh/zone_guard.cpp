@@ -8,7 +8,7 @@
 #include <pgdr/mesh/cavity_3.h>
 
 #include "catch.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 
@@ -21,7 +21,7 @@ using Guard = pgdr::Zone_guard_3<Tr>;
 /// Random points in the cube from -2 to 2, its corners included.
 void fill(Tr& tr, int n) {
   for (int k = 0; k < 8; ++k) tr.insert(Point(k & 1 ? 2 : -2, k & 2 ? 2 : -2, k & 4 ? 2 : -2));
-  Random random(17);
+  Seeded_random random(17);
   for (int k = 0; k < n; ++k)
     tr.insert(Point(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)));
 }

@@ -11,11 +11,12 @@
 
 #include "catch.h"
 #include "octree/random_octree.h"
+#include "seeded_random.h"
 
 using pgdr::Linear_octree_3;
 using pgdr::Octree_box;
 using pgdr::Octree_key;
-using pgdr_test::Random;
+using pgdr_test::Seeded_random;
 using pgdr_test::unit_cube;
 
 namespace {
@@ -47,7 +48,7 @@ TEST_CASE("an octree is one leaf, or all leaves of a level") {
 }
 
 TEST_CASE("find gives the half-open leaf of a point and the leaf of a node") {
-  Random random(21);
+  Seeded_random random(21);
   for (int trial = 0; trial < 60; ++trial) {
     const Octree_box box = Octree_box::around({-3.7, 1.25, 100}, {4, 2, 101});
     const Linear_octree_3 octree = pgdr_test::random_octree(random, box, 6, 300);
@@ -75,7 +76,7 @@ TEST_CASE("find gives the half-open leaf of a point and the leaf of a node") {
 }
 
 TEST_CASE("split replaces leaves by their children in place") {
-  Random random(22);
+  Seeded_random random(22);
   for (int trial = 0; trial < 100; ++trial) {
     const Linear_octree_3 octree = pgdr_test::random_octree(random, unit_cube(), 5, 200);
     std::vector<std::uint8_t> which(octree.size(), 0);
@@ -116,7 +117,7 @@ TEST_CASE("leaves reach the deepest level and go no further") {
 }
 
 TEST_CASE("is_valid sees every corruption of a list of leaves") {
-  Random random(23);
+  Seeded_random random(23);
   for (int trial = 0; trial < 100; ++trial) {
     const std::vector<Octree_key> leaves = pgdr_test::random_octree(random, unit_cube(), 4, 100).leaves();
     REQUIRE(leaves.size() > 1);

@@ -8,7 +8,7 @@
 #include <pgdr/octree/octree_box.h>
 
 #include "catch.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 using pgdr::Octree_box;
 using pgdr::Octree_key;
@@ -59,7 +59,7 @@ TEST_CASE("the root of the unit cube is the unit cube") {
 }
 
 TEST_CASE("the root contains the box and is the smallest that does") {
-  pgdr_test::Random random(11);
+  pgdr_test::Seeded_random random(11);
   for (int trial = 0; trial < 2000; ++trial) {
     const Sample s = random_sample(random);
     const Octree_box box = Octree_box::around(s.lower, s.upper);
@@ -80,7 +80,7 @@ TEST_CASE("the root contains the box and is the smallest that does") {
 }
 
 TEST_CASE("bounds of nodes, also moved by eighths of an edge, are exact") {
-  pgdr_test::Random random(12);
+  pgdr_test::Seeded_random random(12);
   for (int trial = 0; trial < 2000; ++trial) {
     const Sample s = random_sample(random);
     const Octree_box box = Octree_box::around(s.lower, s.upper);
@@ -101,7 +101,7 @@ TEST_CASE("bounds of nodes, also moved by eighths of an edge, are exact") {
 }
 
 TEST_CASE("points are located by the exact bounds, and moved into the root") {
-  pgdr_test::Random random(13);
+  pgdr_test::Seeded_random random(13);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::uint32_t last = (std::uint32_t{1} << Octree_key::max_level) - 1;
   for (int trial = 0; trial < 2000; ++trial) {

@@ -8,8 +8,8 @@
 #include <pgdr/octree/octree_key.h>
 
 #include "catch.h"
-#include "mesh/random.h"
 #include "octree/random_octree.h"
+#include "seeded_random.h"
 
 using pgdr::Octree_key;
 
@@ -51,7 +51,7 @@ TEST_CASE("children, parents and parity of octree keys agree") {
 }
 
 TEST_CASE("Morton codes interleave the bits of the lower corner") {
-  pgdr_test::Random random(7);
+  pgdr_test::Seeded_random random(7);
   for (int trial = 0; trial < 2000; ++trial) {
     const auto level = static_cast<std::uint8_t>(random.below(Octree_key::max_level + 1));
     const std::uint32_t end = std::uint32_t{1} << level;

@@ -8,9 +8,10 @@
 
 #include "catch.h"
 #include "octree/random_octree.h"
+#include "seeded_random.h"
 
 using pgdr::Linear_octree_3;
-using pgdr_test::Random;
+using pgdr_test::Seeded_random;
 using pgdr_test::unit_cube;
 
 namespace {
@@ -98,7 +99,7 @@ void compare_with_scan(const Linear_octree_3& octree) {
 }  // namespace
 
 TEST_CASE("touching leaves, face neighbours and BUF are what a scan of all pairs finds") {
-  Random random(31);
+  Seeded_random random(31);
   std::size_t unbalanced = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Linear_octree_3 octree = pgdr_test::random_octree(random, unit_cube(), 5, 120);
@@ -112,7 +113,7 @@ TEST_CASE("touching leaves, face neighbours and BUF are what a scan of all pairs
 }
 
 TEST_CASE("BUF is symmetric, holds all touching leaves and not the leaf itself") {
-  Random random(32);
+  Seeded_random random(32);
   for (int trial = 0; trial < 60; ++trial) {
     const Linear_octree_3 octree = pgdr_test::random_octree(random, unit_cube(), 6, 200);
     std::vector<Leaves> buffers(octree.size());
@@ -142,7 +143,7 @@ TEST_CASE("a leaf of a uniform octree touches 26 leaves and they are its BUF") {
 }
 
 TEST_CASE("leaves of one level and one parity never touch") {
-  Random random(33);
+  Seeded_random random(33);
   Leaves touching;
   for (int trial = 0; trial < 100; ++trial) {
     const Linear_octree_3 octree = pgdr_test::random_octree(random, unit_cube(), 6, 300);

@@ -15,6 +15,7 @@
 #include "inputs.h"
 #include "quality/corruptions.h"
 #include "refinement/refined.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 using pgdr::Plc;
@@ -216,7 +217,7 @@ TEST_CASE("A flag stops the refinement", "[refinement]") {
 }
 
 TEST_CASE("The mesh does not depend on where memory lies", "[refinement]") {
-  Random random(31);
+  Seeded_random random(31);
   std::vector<std::unique_ptr<char[]>> garbage;
   for (const auto& [file, size] : shapes) {
     CAPTURE(file);

@@ -15,6 +15,7 @@
 #include "conforming/consistency.h"
 #include "domain/shapes.h"
 #include "refinement/refined.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 using pgdr::Leaf_task;
@@ -243,7 +244,7 @@ TEST_CASE("A leaf region is half open", "[refinement]") {
     CHECK(!region.contains(p));
   // Every point is in exactly one of the leaves.
   const auto leaves = slabs(7);
-  Random random(41);
+  Seeded_random random(41);
   for (int k = 0; k < 1000; ++k) {
     const double x = k < 8 ? k / 7.0 : random.between(-1, 2);
     int in = 0;

@@ -8,13 +8,14 @@
 #include "catch.h"
 #include "octree/random_octree.h"
 #include "schedule/list_engine.h"
+#include "seeded_random.h"
 
 using namespace pgdr_test;
 using pgdr::Linear_octree_3;
 using pgdr::Octree_key;
 
 TEST_CASE("The order of tasks is a strict total order on the leaves", "[schedule]") {
-  Random random(5);
+  Seeded_random random(5);
   for (int round = 0; round < 20; ++round) {
     const Linear_octree_3 octree = balanced(random_octree(random, unit_cube(), 6, 200));
     std::vector<Octree_key> leaves = octree.leaves();
@@ -29,7 +30,7 @@ TEST_CASE("The order of tasks is a strict total order on the leaves", "[schedule
 }
 
 TEST_CASE("Larger leaves go first, and chains of tasks that wait for each other are short", "[schedule]") {
-  Random random(6);
+  Seeded_random random(6);
   for (int round = 0; round < 20; ++round) {
     const Linear_octree_3 octree = balanced(random_octree(random, unit_cube(), 6, 500));
     std::vector<std::uint32_t> order(octree.size()), length(octree.size(), 1), touching;
@@ -53,7 +54,7 @@ TEST_CASE("Larger leaves go first, and chains of tasks that wait for each other 
 }
 
 TEST_CASE("Every point of space is in the region of the leaf that is found for it", "[schedule]") {
-  Random random(7);
+  Seeded_random random(7);
   const Linear_octree_3 octree = random_octree(random, unit_cube(), 5, 300);
   for (int k = 0; k < 2000; ++k) {
     std::array<double, 3> p{};
@@ -68,7 +69,7 @@ TEST_CASE("Every point of space is in the region of the leaf that is found for i
 }
 
 TEST_CASE("Leaves know those that touch them, and their slots for them", "[schedule]") {
-  Random random(8);
+  Seeded_random random(8);
   const Linear_octree_3 octree = balanced(random_octree(random, unit_cube(), 6, 400));
   std::vector<pgdr::Scheduled_leaf<List_engine>> leaves(octree.size());
   leaves[0].outbox.resize(3);  // of an octree before

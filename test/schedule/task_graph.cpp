@@ -12,7 +12,7 @@
 #include <pgdr/parallel/thread_arena.h>
 
 #include "catch.h"
-#include "mesh/random.h"
+#include "seeded_random.h"
 
 using Graph = std::vector<std::vector<std::uint32_t>>;
 
@@ -20,7 +20,7 @@ namespace {
 
 /// Edges from smaller to larger numbers.
 Graph random_graph(std::size_t n, std::uint32_t degree, std::uint64_t seed) {
-  pgdr_test::Random random(seed);
+  pgdr_test::Seeded_random random(seed);
   Graph graph(n);
   for (std::size_t k = 0; k + 1 < n; ++k) {
     for (std::uint32_t d = random.below(degree + 1); d > 0; --d)
