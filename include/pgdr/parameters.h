@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 
 namespace pgdr {
@@ -62,6 +63,11 @@ struct Parameters {
   /// refined with them. This many points out there may be spent on each point that waits inside. 1/2: less than what a
   /// second thread saves.
   double outside_points = 0.5;
+
+  /// The order of tasks on touching leaves: 0, the usual one, with the shortest chains; any other number, the random
+  /// order that belongs to it. Each order has its own mesh, the same for every number of threads. To test the promise
+  /// that any order gives a valid mesh.
+  std::uint64_t task_order = 0;
 
   /// Keep a record of every leaf task, for a timeline or a replay: about 64 bytes each.
   bool record_tasks = false;

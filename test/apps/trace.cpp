@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <pgdr/schedule/leaf_table.h>
+#include <pgdr/schedule/task_order.h>
 
 #include "program.h"
 
@@ -92,7 +92,7 @@ void check_run(const Traced_run& run, unsigned threads) {
       end = std::max(end, wave[i].end);
       for (std::size_t j = 0; j < wave.size(); ++j) {
         if (i != j) CHECK(!(wave[i].key == wave[j].key));
-        if (i == j || !pgdr::touch(wave[i].key, wave[j].key) || !pgdr::runs_before(wave[i].key, wave[j].key)) continue;
+        if (i == j || !pgdr::touch(wave[i].key, wave[j].key) || !pgdr::Task_order()(wave[i].key, wave[j].key)) continue;
         ++ordered;
         early += wave[j].begin < wave[i].end - rounding;
       }

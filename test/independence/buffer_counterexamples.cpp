@@ -84,7 +84,7 @@ TEST_CASE("Condition (18) lets a cavity be larger than the leaf", "[independence
   REQUIRE(contains(mesh, p));
   CHECK(satisfies_buffer_condition(mesh, octree, leaf));
   Reach reach;
-  measure(mesh, zone_requirement(octree, leaf), p, reach);
+  measure(mesh, zone_requirement(octree, leaf), octree.shortest_touching_edge(leaf), p, reach);
   CHECK(reach.cavity == Approx(10));  // 2.5 from the leaf, instead of d = 1/4
 }
 

@@ -50,9 +50,11 @@ struct Reach {
   }
 };
 
-/// Distances of the vertices of the cavity of a point of the leaf, and of all cells around these vertices.
-inline void measure(const Delaunay& mesh, const pgdr::Requirement& r, const Point& p, Reach& reach) {
-  const double d = 2 * r.bound;
+/// Distances from a leaf, the hole of the requirement: of the vertices of the cavity of p, and of all cells around these
+/// vertices. `shortest` is l* of the leaf.
+inline void measure(const Delaunay& mesh, const pgdr::Requirement& r, double shortest, const Point& p,
+                    Reach& reach) {
+  const double d = shortest / 4;
   Delaunay::Locate_type type{};
   int i = 0, j = 0;
   const Delaunay::Cell_handle start = mesh.locate(p, type, i, j);

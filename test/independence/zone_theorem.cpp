@@ -202,10 +202,10 @@ void refine_until(Delaunay& mesh, const Rule& rule, double h, Random& random) {
 }
 
 /// Inserts points and measures the zones of points of the leaf, in turn.
-Reach insert_and_measure(Delaunay& mesh, Kind kind, const Requirement& r, Random& random) {
+Reach insert_and_measure(Delaunay& mesh, Kind kind, const Requirement& r, double shortest, Random& random) {
   Reach reach;
   for (int step = 0; step < 150; ++step) {
-    measure(mesh, r, point_in(kind, random, r.hole_lower, r.hole_upper), reach);
+    measure(mesh, r, shortest, point_in(kind, random, r.hole_lower, r.hole_upper), reach);
     const std::uint32_t where = random.below(3);  // in the leaf, around it, anywhere
     mesh.insert(where == 0   ? point_in(kind, random, r.hole_lower, r.hole_upper)
                 : where == 1 ? point_in(kind, random, r.lower, r.upper)
@@ -222,6 +222,7 @@ struct Leaf_of_an_octree {
     pgdr::Zone_condition().requirements(octree, leaf, all);
     return all.at(0);
   }
+  double shortest() const { return octree.shortest_touching_edge(leaf); }
   Linear_octree_3 octree;
   std::uint32_t leaf;
 };
@@ -234,7 +235,7 @@ Reach experiment(Kind kind, double weaker, Random& random) {
   Zone_rule rule{r};
   rule.r.bound *= weaker;
   refine_until(mesh, rule, rule.r.bound, random);
-  return insert_and_measure(mesh, kind, r, random);
+  return insert_and_measure(mesh, kind, r, leaf.shortest(), random);
 }
 
 /// The same with condition (18).
@@ -245,7 +246,7 @@ Reach paper_experiment(Kind kind, Random& random) {
   Paper_rule rule;
   pgdr::Buffer_condition().requirements(leaf.octree, leaf.leaf, rule.all);
   refine_until(mesh, rule, 4 * r.bound / 3, random);  // l*/6
-  return insert_and_measure(mesh, kind, r, random);
+  return insert_and_measure(mesh, kind, r, leaf.shortest(), random);
 }
 
 void require_zone_theorem(Kind kind, int count) {

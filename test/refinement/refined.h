@@ -3,6 +3,8 @@
 #ifndef PGDR_TEST_REFINEMENT_REFINED_H
 #define PGDR_TEST_REFINEMENT_REFINED_H
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -31,6 +33,26 @@ inline std::string failures(const std::vector<pgdr::Check_line>& lines) {
   for (const auto& line : lines)
     if (!line.passed) s += line.property + ": " + line.detail + "\n";
   return s;
+}
+
+/// How many tetrahedra have a circumradius above the sizing field at the circumcenter, exempt ones apart.
+template <class Sizing>
+std::size_t oversized(const pgdr::Indexed_mesh_3& mesh, const Sizing& sizing) {
+  using Point = pgdr::Default_kernel::Point_3;
+  const std::set<std::size_t> exempt(mesh.exempt.begin(), mesh.exempt.end());
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    if (exempt.contains(t)) continue;
+    std::array<Point, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& x = mesh.points[static_cast<std::size_t>(mesh.tetrahedra[t][i])];
+      p[i] = Point(x[0], x[1], x[2]);
+    }
+    const Point c = CGAL::circumcenter(p[0], p[1], p[2], p[3]);
+    const double size = sizing(c) * (1 + 1e-6);
+    count += CGAL::squared_distance(c, p[0]) > size * size;
+  }
+  return count;
 }
 
 /// Whether two meshes are the same, number by number.

@@ -38,13 +38,13 @@ Vec_3 scattered(const Poor_tetrahedron& t, double radius) {
 
 Mesh run(const pgdr::Plc& plc, const pgdr::Command_line_sizing& sizing, const pgdr::Parameters& parameters,
          const Placement& placement) {
-  return pgdr::refine_mesh_3(pgdr::make_domain_3(plc, parameters.coplanar_tolerance, false), sizing, parameters,
-                             placement);
+  return pgdr::refine_mesh_3(pgdr::make_domain_3(plc, parameters.coplanar_tolerance, false), sizing,
+                             parameters, placement);
 }
 
 /// The same mesh for every number of threads, valid, with the bound kept, and other than with circumcenters.
-void require_same_mesh_with(const Placement& placement, const pgdr::Plc& plc, const pgdr::Command_line_sizing& sizing,
-                            double bound) {
+void require_same_mesh_with(const Placement& placement, const pgdr::Plc& plc,
+                            const pgdr::Command_line_sizing& sizing, double bound) {
   pgdr::Parameters parameters;
   parameters.radius_edge_ratio = bound;
   parameters.check_zones = true;
@@ -53,6 +53,7 @@ void require_same_mesh_with(const Placement& placement, const pgdr::Plc& plc, co
   const Outcome first(mesh);
   CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
   CHECK(failures(pgdr::check_mesh(first.mesh, &mesh.domain(), {bound})) == "");
+  CHECK(oversized(first.mesh, sizing) == 0);
   REQUIRE(first.tasks() >= 100);
   REQUIRE(first.most_ready() >= 8);
   CHECK(first.checksum != Outcome(plc, sizing, parameters).checksum);

@@ -40,7 +40,9 @@ TEST_CASE("The cube is the same mesh for every number of threads, every time", "
   require_same_mesh(pgdr::read_plc(data_file("cube.poly")), size(0.023), 5);
 }
 
-TEST_CASE("The winged body in its box is the same mesh for every number of threads", "[schedule]") { body(1); }
+TEST_CASE("The winged body in its box is the same mesh for every number of threads", "[schedule]") {
+  body(1);
+}
 
 TEST_CASE("A joint is the same mesh for every number of threads", "[schedule][models]") {
   if (!joint(1)) PGDR_SKIP("the real models are not here");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/schedule/leaf_table.h>
+#include <pgdr/schedule/task_order.h>
 
 #include <algorithm>
 #include <array>
@@ -16,14 +17,15 @@ using pgdr::Octree_key;
 
 TEST_CASE("The order of tasks is a strict total order on the leaves", "[schedule]") {
   Seeded_random random(5);
-  for (int round = 0; round < 20; ++round) {
+  for (std::uint64_t round = 0; round < 20; ++round) {
     const Linear_octree_3 octree = balanced(random_octree(random, unit_cube(), 6, 200));
+    const pgdr::Task_order before{round / 2};  // the usual one, and random ones
     std::vector<Octree_key> leaves = octree.leaves();
-    std::sort(leaves.begin(), leaves.end(), pgdr::runs_before);
+    std::sort(leaves.begin(), leaves.end(), before);
     // Compatible with the positions in one list: total, irreflexive, transitive.
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i)
-      for (std::size_t j = 0; j < leaves.size(); ++j) wrong += pgdr::runs_before(leaves[i], leaves[j]) != (i < j);
+      for (std::size_t j = 0; j < leaves.size(); ++j) wrong += before(leaves[i], leaves[j]) != (i < j);
     CAPTURE(round, leaves.size());
     CHECK(wrong == 0);
   }
@@ -36,13 +38,13 @@ TEST_CASE("Larger leaves go first, and chains of tasks that wait for each other 
     std::vector<std::uint32_t> order(octree.size()), length(octree.size(), 1), touching;
     for (std::uint32_t i = 0; i < octree.size(); ++i) order[i] = i;
     std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return pgdr::runs_before(octree[a], octree[b]); });
+              [&](std::uint32_t a, std::uint32_t b) { return pgdr::Task_order()(octree[a], octree[b]); });
     std::uint32_t longest = 0, levels = 1;
     for (const std::uint32_t i : order) {
       octree.touching(i, touching);
       for (const std::uint32_t n : touching) {
-        if (octree[n].level < octree[i].level) CHECK(pgdr::runs_before(octree[n], octree[i]));
-        if (pgdr::runs_before(octree[n], octree[i])) length[i] = std::max(length[i], length[n] + 1);
+        if (octree[n].level < octree[i].level) CHECK(pgdr::Task_order()(octree[n], octree[i]));
+        if (pgdr::Task_order()(octree[n], octree[i])) length[i] = std::max(length[i], length[n] + 1);
       }
       longest = std::max(longest, length[i]);
       levels = std::max<std::uint32_t>(levels, octree[i].level + 1u);

@@ -34,7 +34,8 @@ pgdr::Parameters on(unsigned threads) {
 
 }  // namespace
 
-TEST_CASE("Two meshes that are refined at once are those that are refined one after the other", "[schedule]") {
+TEST_CASE("Two meshes that are refined at once are those that are refined one after the other",
+          "[schedule]") {
   struct Job {
     pgdr::Plc plc;
     double radius;
@@ -44,7 +45,9 @@ TEST_CASE("Two meshes that are refined at once are those that are refined one af
                               {pgdr::read_plc(data_file("winged_body_in_box.poly")), 1.2, 3},
                               {cube(), 0.035, 0},
                               {tilted(box({0, 0, 0}, {3, 2, 1})), 0.1, 1}};
-  const auto run = [&](std::size_t k) { return Outcome(jobs[k].plc, size(jobs[k].radius), on(jobs[k].threads)); };
+  const auto run = [&](std::size_t k) {
+    return Outcome(jobs[k].plc, size(jobs[k].radius), on(jobs[k].threads));
+  };
   std::vector<Outcome> alone;
   for (std::size_t k = 0; k < jobs.size(); ++k) alone.push_back(run(k));
   for (int repetition = 0; repetition < 2; ++repetition) {

@@ -165,7 +165,8 @@ TEST_CASE("A coarse element for good keeps leaves from being split near it, and 
     std::vector<pgdr::Requirement> r;
     pgdr::Zone_condition().requirements(next, j, r);
     const auto vec = [](const std::array<double, 3>& a) { return pgdr::Vec_3{a[0], a[1], a[2]}; };
-    CHECK(s.engine.finer({vec(r[0].lower), vec(r[0].upper)}, {vec(r[0].hole_lower), vec(r[0].hole_upper)}, r[0].bound));
+    CHECK(s.engine.finer({vec(r[0].lower), vec(r[0].upper)}, {vec(r[0].hole_lower), vec(r[0].hole_upper)},
+                         r[0].bound));
   }
 }
 

@@ -24,7 +24,8 @@ Graph random_graph(std::size_t n, std::uint32_t degree, std::uint64_t seed) {
   Graph graph(n);
   for (std::size_t k = 0; k + 1 < n; ++k) {
     for (std::uint32_t d = random.below(degree + 1); d > 0; --d)
-      graph[k].push_back(static_cast<std::uint32_t>(k + 1) + random.below(static_cast<std::uint32_t>(n - k - 1)));
+      graph[k].push_back(static_cast<std::uint32_t>(k + 1) +
+                         random.below(static_cast<std::uint32_t>(n - k - 1)));
     std::sort(graph[k].begin(), graph[k].end());
     graph[k].erase(std::unique(graph[k].begin(), graph[k].end()), graph[k].end());
   }
@@ -74,8 +75,9 @@ TEST_CASE("Every task runs once, after all that precede it", "[schedule]") {
 }
 
 TEST_CASE("No tasks are done at once", "[schedule]") {
-  CHECK(pgdr::run_task_graph(0, [](std::size_t, std::vector<std::uint32_t>& out) { out.clear(); },
-                             [](std::size_t) { FAIL("there is no task"); }) == 0);
+  CHECK(pgdr::run_task_graph(
+            0, [](std::size_t, std::vector<std::uint32_t>& out) { out.clear(); },
+            [](std::size_t) { FAIL("there is no task"); }) == 0);
 }
 
 TEST_CASE("What a task throws comes out, and what depends on it does not run", "[schedule]") {

@@ -24,6 +24,7 @@
 #include <pgdr/schedule/leaf_table.h>
 #include <pgdr/schedule/split_decision.h>
 #include <pgdr/schedule/task_graph.h>
+#include <pgdr/schedule/task_order.h>
 #include <pgdr/schedule/task_recorder.h>
 
 namespace pgdr {
@@ -240,13 +241,14 @@ class Epoch_scheduler {
       }
     recorder_.section("wave", false, begin);
     if (!together.empty()) {
+      const Task_order before{parameters_.task_order};
       const std::size_t ready = run_task_graph(
           together.size(),
           [&](std::size_t n, std::vector<std::uint32_t>& out) {
             out.clear();
             const std::uint32_t i = runnable_[together[n]];
             for (const std::uint32_t t : leaves_[i].touching)
-              if (node_of_[t] != none && runs_before(octree_[i], octree_[t])) out.push_back(node_of_[t]);
+              if (node_of_[t] != none && before(octree_[i], octree_[t])) out.push_back(node_of_[t]);
           },
           [&](std::size_t n) { run_leaf(together[n], quota); });
       Epoch_statistics& epoch = statistics_.epochs.back();

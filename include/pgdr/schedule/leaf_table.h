@@ -64,14 +64,6 @@ inline Region_3 grown(Region_3 r, double by) {
   return r;
 }
 
-/// The total order of tasks on touching leaves: larger leaves first, as in the paper, then by colour, so that chains
-/// are short, then along the Morton curve. It depends on the octree alone.
-inline bool runs_before(const Octree_key& a, const Octree_key& b) {
-  if (a.level != b.level) return a.level < b.level;
-  if (a.parity() != b.parity()) return a.parity() < b.parity();
-  return a.morton() < b.morton();
-}
-
 /// Fills in what a leaf knows of its surroundings. The outboxes must be empty.
 template <class Engine>
 void connect_leaves(const Linear_octree_3& octree, std::vector<Scheduled_leaf<Engine>>& leaves) {
