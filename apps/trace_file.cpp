@@ -32,8 +32,10 @@ void write_trace(const Schedule_statistics& schedule, const std::filesystem::pat
   Atomic_file file(path);
   char line[400];
   int n = std::snprintf(line, sizeof line,
-                        "{\"displayTimeUnit\":\"ms\",\"otherData\":{\"threads\":%u},\"traceEvents\":[\n",
-                        schedule.threads);
+                        "{\"displayTimeUnit\":\"ms\",\"otherData\":{\"threads\":%u,\"root_lower\":[%.17g,%.17g,%.17g],"
+                        "\"root_edge\":%.17g},\"traceEvents\":[\n",
+                        schedule.threads, schedule.root_lower[0], schedule.root_lower[1], schedule.root_lower[2],
+                        schedule.root_edge);
   file.write(line, static_cast<std::size_t>(n));
   for (std::size_t k = 0; k < schedule.records.size(); ++k) {
     n = format_event(line, sizeof line, schedule.records[k]);

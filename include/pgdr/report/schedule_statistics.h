@@ -2,6 +2,7 @@
 #ifndef PGDR_REPORT_SCHEDULE_STATISTICS_H
 #define PGDR_REPORT_SCHEDULE_STATISTICS_H
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -44,6 +45,8 @@ struct Schedule_statistics {
   std::size_t settled = 0;      ///< points inserted alone because a facet was torn beyond one leaf
   double seconds = 0;
   double serial_seconds = 0;
+  std::array<double, 3> root_lower{};  ///< lower corner of the octree's root
+  double root_edge = 0;
   std::vector<Task_record> records;  ///< empty unless asked for
 };
 

@@ -70,6 +70,8 @@ class Epoch_scheduler {
     if (stopped_) close();
     finish_epoch();
     statistics_.threads = static_cast<unsigned>(workers_.size());
+    statistics_.root_lower = octree_.box().lower();
+    statistics_.root_edge = octree_.box().edge();
     statistics_.seconds = recorder_.now();
     statistics_.serial_seconds = recorder_.serial();
     statistics_.records = recorder_.take();
