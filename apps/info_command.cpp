@@ -74,6 +74,9 @@ void print_summary(const Domain_summary& summary) {
   print_line("closed", closedness(summary));
   print_angle("smallest dihedral angle", summary.smallest_dihedral_deg);
   print_angle("smallest plane angle", summary.smallest_plane_angle_deg);
+  if (summary.plane_corners_below_14_48 > 0)
+    print_line("plane angles < 14.48", with_separators(summary.plane_corners_below_14_48) +
+                                           ", where no bound on the radius-edge ratio can hold");
   if (!summary.volumes.empty()) print_volumes(summary);
   print_line("problems", summary.problems.empty() ? "none" : with_separators(summary.problems.size()));
 }

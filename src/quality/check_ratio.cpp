@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The radius-edge bound, and what excuses a tetrahedron from it.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -76,6 +79,113 @@ std::unique_ptr<Sharp_classes> sharp_features(const Epick_domain& domain) {
   return classes;
 }
 
+/// Short edges that a small angle explains: between points of two segments or facets that meet in it, no closer to each
+/// other than half of what the angle makes them.
+class Explained_edges {
+ public:
+  explicit Explained_edges(const Epick_domain& domain) : domain_(domain), angles_(small_angles_3(domain)) {
+    tolerance_ = std::max(domain.tolerance, 1e-9 * domain.diagonal);
+    for (std::size_t s = 0; s < domain.segments.size(); ++s) {
+      const auto& ends = domain.segments[s].vertices;
+      segment_items_.push_back({Plain::Segment_3(plain(ends[0]), plain(ends[1])), std::uint32_t(s)});
+    }
+    for (std::size_t f = 0; f < domain.facets.size(); ++f)
+      for (const auto& t : domain.facets[f].triangles)
+        triangle_items_.push_back(
+            {Plain::Triangle_3(plain(t[0]), plain(t[1]), plain(t[2])), std::uint32_t(f)});
+    segments_.emplace(segment_items_.begin(), segment_items_.end());
+    triangles_.emplace(triangle_items_.begin(), triangle_items_.end());
+  }
+
+  bool contains(const P& p, const P& q) const {
+    const std::vector<Feature> at_p = features_at(p), at_q = features_at(q);
+    for (const Feature& a : at_p)
+      for (const Feature& b : at_q)
+        if (is_explained(a, p, b, q)) return true;
+    return false;
+  }
+
+ private:
+  struct Feature {
+    int dimension;
+    std::uint32_t index;
+  };
+
+  Plain::Point_3 plain(Index v) const {
+    const auto& p = domain_.vertices[v];
+    return Plain::Point_3(p.x(), p.y(), p.z());
+  }
+
+  std::vector<Feature> features_at(const P& p) const {
+    const CGAL::Bbox_3 box(p[0] - tolerance_, p[1] - tolerance_, p[2] - tolerance_, p[0] + tolerance_,
+                           p[1] + tolerance_, p[2] + tolerance_);
+    std::vector<Feature> result;
+    std::vector<const Tagged<Plain::Segment_3>*> on_segments;
+    segments_->all_intersected_primitives(box, std::back_inserter(on_segments));
+    for (const auto* s : on_segments) result.push_back({1, s->tag});
+    std::vector<const Tagged<Plain::Triangle_3>*> on_triangles;
+    triangles_->all_intersected_primitives(box, std::back_inserter(on_triangles));
+    for (const auto* t : on_triangles) result.push_back({2, t->tag});
+    return result;
+  }
+
+  bool is_explained(const Feature& a, const P& p, const Feature& b, const P& q) const {
+    if (a.dimension == b.dimension && a.index == b.index) return false;
+    const auto& facets = domain_.facets;
+    const auto bounds = [&](const Feature& s, const Feature& f) {
+      return s.dimension == 1 && f.dimension == 2 &&
+             std::binary_search(facets[f.index].segments.begin(), facets[f.index].segments.end(), s.index);
+    };
+    if (bounds(a, b) || bounds(b, a)) return false;
+    const double length = std::sqrt(squared_distance(p, q));
+    const auto wide_enough = [&](double degrees, double distance) {
+      return degrees < 60 && length * (1 + 1e-6) >= degrees * std::numbers::pi / 360 * distance;
+    };
+    for (const Index v : vertices_of(a))
+      if (std::ranges::binary_search(vertices_of(b), v)) {
+        const auto& o = domain_.vertices[v];
+        const P corner{o.x(), o.y(), o.z()};
+        if (wide_enough(angles_.vertex_deg[v],
+                        std::sqrt(std::min(squared_distance(p, corner), squared_distance(q, corner)))))
+          return true;
+      }
+    if (a.dimension == 1 || b.dimension == 1) return false;
+    for (const Index s : facets[a.index].segments)
+      if (std::ranges::binary_search(facets[b.index].segments, s)) {
+        const auto distance = [&](const P& x) {
+          return CGAL::squared_distance(Plain::Point_3(x[0], x[1], x[2]), segment_items_[s].shape);
+        };
+        if (wide_enough(angles_.segment_deg[s], std::sqrt(std::min(distance(p), distance(q))))) return true;
+      }
+    return false;
+  }
+
+  /// Ascending.
+  std::vector<Index> vertices_of(const Feature& f) const {
+    if (f.dimension == 2) return domain_.facets[f.index].vertices;
+    const auto& ends = domain_.segments[f.index].vertices;
+    return {ends[0], ends[1]};
+  }
+
+  const Epick_domain& domain_;
+  Small_angles angles_;
+  double tolerance_ = 0;
+  std::vector<Tagged<Plain::Segment_3>> segment_items_;
+  std::vector<Tagged<Plain::Triangle_3>> triangle_items_;
+  std::optional<Aabb_tree<Plain::Segment_3>> segments_;
+  std::optional<Aabb_tree<Plain::Triangle_3>> triangles_;
+};
+
+/// The ends of the shortest edge of a tetrahedron.
+std::array<P, 2> shortest_edge(const std::array<P, 4>& corners) {
+  std::array<P, 2> shortest{corners[0], corners[1]};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j)
+      if (squared_distance(corners[i], corners[j]) < squared_distance(shortest[0], shortest[1]))
+        shortest = {corners[i], corners[j]};
+  return shortest;
+}
+
 /// Squares of the circumradius and of the shortest edge of tetrahedron i.
 std::pair<double, double> squared_radius_and_edge(const Indexed_mesh_3& mesh, std::size_t i) {
   const auto& t = mesh.tetrahedra[i];
@@ -89,7 +199,9 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
   const double limit = bound * bound * (1 + 2e-9);
   Failures failures;
   std::array<std::size_t, class_bounds_deg.size()> excused{};
+  std::size_t between = 0;
   std::unique_ptr<Sharp_classes> sharp;
+  std::optional<Explained_edges> explained;
   struct Found {
     double worst = 0;
     std::vector<std::size_t> over;
@@ -125,17 +237,24 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
         distance = std::min(distance, (*sharp)[k].squared_distance(Plain::Point_3(p[0], p[1], p[2])));
       if (distance < nearest) nearest = distance, nearest_class = k;
     }
-    if (nearest_class < excused.size() && nearest <= 16 * rr)
+    if (nearest_class < excused.size() && nearest <= 16 * rr) {
       ++excused[nearest_class];
+      continue;
+    }
+    if (domain != nullptr && !explained) explained.emplace(*domain);
+    const auto [p, q] = shortest_edge({a, b, c, d});
+    if (explained && explained->contains(p, q))
+      ++between;
     else
       failures.add("tetrahedron ", i, " has ratio ", std::sqrt(rr / ll), " and no small angle nearby");
   }
-  std::string figures =
-      text("worst ", std::sqrt(found.worst), ", bound ", bound, ", ", found.over.size(), " tetrahedra over it");
+  std::string figures = text("worst ", std::sqrt(found.worst), ", bound ", bound, ", ", found.over.size(),
+                             " tetrahedra over it");
   if (domain != nullptr) {
     figures += "; near angles";
     for (std::size_t k = 0; k < excused.size(); ++k)
       figures += text(k > 0 ? ", " : " ", class_names[k], ": ", excused[k]);
+    if (between > 0) figures += text("; farther from them, between what meets in them: ", between);
   }
   return failures.line("ratio", figures);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/conforming/constraint_complex_3.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -218,6 +219,30 @@ TEST_CASE("Distances to small angles", "[conforming]") {
     inside += beyond == 0;
   }
   CHECK(inside > 100);
+
+  // The two facets at the acute edge, and in the bottom the two segments at its acute corner.
+  const auto facet_with = [&](pgdr::Index a, pgdr::Index b, pgdr::Index c) {
+    for (pgdr::Index f = 0; f < domain.facets.size(); ++f) {
+      const auto& v = domain.facets[f].vertices;
+      if (std::ranges::count(v, a) + std::ranges::count(v, b) + std::ranges::count(v, c) == 3) return f;
+    }
+    return pgdr::Index(-1);
+  };
+  const auto segment_with = [&](pgdr::Index a, pgdr::Index b) {
+    for (pgdr::Index s = 0; s < domain.segments.size(); ++s)
+      if (domain.segments[s].vertices == std::array<pgdr::Index, 2>{a, b}) return s;
+    return pgdr::Index(-1);
+  };
+  const pgdr::Index side = facet_with(0, 1, 4), wall = facet_with(0, 2, 5), end = facet_with(1, 2, 4);
+  const pgdr::Vec_3 p{2, 0, 2}, mirrored{2 * std::cos(0.5), 2 * std::sin(0.5), 2};
+  CHECK(acute.explains(2, side, p, 2, wall, mirrored));
+  CHECK(acute.explains(2, wall, mirrored, 2, side, p));
+  CHECK_FALSE(acute.explains(2, side, p, 2, side, {2, 0, 2.1}));         // one facet
+  CHECK_FALSE(acute.explains(2, side, p, 2, wall, {2, 0.4, 2}));         // closer than half of what the angle makes
+  CHECK_FALSE(acute.explains(2, side, {2.9, 0, 2}, 2, end, {3, 0.1, 2}));  // meet at 90 degrees
+  CHECK_FALSE(acute.explains(3, 0, p, 2, wall, mirrored));               // a point of the volume
+  CHECK(acute.explains(1, segment_with(0, 1), {2, 0, 0}, 1, segment_with(0, 2), {2 * std::cos(0.5), 2 * std::sin(0.5), 0}));
+  CHECK_FALSE(acute.explains(1, segment_with(0, 1), {2, 0, 0}, 2, facet_with(0, 1, 2), {2, 0.6, 0}));  // bounds it
 
   const pgdr::Acute_neighborhood_3 none(pgdr::make_domain_3(tilted(box())));
   for (pgdr::Index v = 0; v < 8; ++v) CHECK(!none.is_acute_vertex(v));

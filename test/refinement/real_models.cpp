@@ -55,6 +55,19 @@ TEST_CASE("A bunny is meshed", "[models]") {
   if (!checked("a14_bunny00.off", 29145)) PGDR_SKIP("the real models are not here");
 }
 
+TEST_CASE("Needles are meshed", "[models]") {
+  const auto anchor = checked("a04_anchor.off", 1250);
+  if (!anchor) PGDR_SKIP("the real models are not here");
+  CHECK(anchor->tetrahedra.size() < 8 * 21384);  // TetGen's number
+  if (!checked("a12_triceratops.off", 1791)) PGDR_SKIP("the real models are not here");
+}
+
+TEST_CASE("Thin walls are meshed", "[models]") {
+  const auto cheese = checked("a13_cheese.off", 40000);
+  if (!cheese) PGDR_SKIP("the real models are not here");
+  CHECK(cheese->tetrahedra.size() < 2 * 613057);  // TetGen's number
+}
+
 TEST_CASE("Regions and markers come through", "[models]") {
   for (const auto& [name, exempt] : {std::pair<const char*, std::size_t>{"a01_tetgen_example.poly", 0},
                                      {"a21_cgal_patches_3regions.poly", 1080}}) {

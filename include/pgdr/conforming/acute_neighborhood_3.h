@@ -2,6 +2,10 @@
 #ifndef PGDR_CONFORMING_ACUTE_NEIGHBORHOOD_3_H
 #define PGDR_CONFORMING_ACUTE_NEIGHBORHOOD_3_H
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include <CGAL/AABB_tree.h>
@@ -44,6 +48,7 @@ class Acute_neighborhood_3 {
   explicit Acute_neighborhood_3(const Domain_3<K>& domain) {
     const Small_angles angles = small_angles_3(domain);
     is_acute_vertex_.resize(domain.vertices.size(), false);
+    list_small_angles(domain, angles);
     const auto point = [&](Index v) {
       const Vec_3 p = to_vec(domain.vertices[v]);
       return Kernel::Point_3(p.x, p.y, p.z);
@@ -69,12 +74,96 @@ class Acute_neighborhood_3 {
   /// Whether p is within `distance` of such a vertex or segment.
   bool contains(const Vec_3& p, double distance) const {
     const Kernel::Point_3 q(p.x, p.y, p.z);
-    if (vertices_.size() > 0 && Vertex_search(vertices_, q, 1).begin()->second <= distance * distance) return true;
+    if (vertices_.size() > 0 && Vertex_search(vertices_, q, 1).begin()->second <= distance * distance)
+      return true;
     return !segments_.empty() && segment_tree_.squared_distance(q) <= distance * distance;
   }
 
+  /// Whether two points p and q of different features, segments or facets given by dimension and index, may be as close as
+  /// they are just because the features meet at less than `limit` degrees, near p. The local feature size, which takes no
+  /// notice of features that meet, does not know such distances.
+  bool explains(int p_dimension, Index p_feature, const Vec_3& p, int q_dimension, Index q_feature,
+                const Vec_3& q) const {
+    if (p_dimension == q_dimension && p_feature == q_feature) return false;
+    if (p_dimension < 1 || q_dimension < 1 || p_dimension > 2 || q_dimension > 2) return false;
+    const auto& a = angles_at(p_dimension, p_feature);
+    const auto& b = angles_at(q_dimension, q_feature);
+    if (p_dimension != q_dimension &&
+        contains_segment(p_dimension == 2 ? p_feature : q_feature, p_dimension == 1 ? p_feature : q_feature))
+      return false;
+    const double gap2 = squared_distance(p, q);
+    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+      if (*i == *j && gap2 >= squared_gap(*i, p)) return true;
+      const bool both = *i == *j;
+      const bool first = *i < *j;
+      if (both || first) ++i;
+      if (both || !first) ++j;
+    }
+    return false;
+  }
+
  private:
+  /// A small angle: a vertex, or a segment with `segment_bit`.
+  using Place = std::uint64_t;
+  static constexpr Place segment_bit = Place{1} << 32;
+
+  template <class K>
+  void list_small_angles(const Domain_3<K>& domain, const Small_angles& angles) {
+    const auto is_small = [](double degrees) { return degrees < limit; };
+    const auto radians = [](double degrees) { return degrees * std::numbers::pi / 180; };
+    at_segment_.resize(domain.segments.size());
+    at_facet_.resize(domain.facets.size());
+    segments_of_facet_.resize(domain.facets.size());
+    for (Index s = 0; s < domain.segments.size(); ++s)
+      for (const Index v : domain.segments[s].vertices)
+        if (is_small(angles.vertex_deg[v])) at_segment_[s].push_back(v);
+    for (auto& list : at_segment_) std::sort(list.begin(), list.end());
+    for (Index f = 0; f < domain.facets.size(); ++f) {
+      for (const Index v : domain.facets[f].vertices)
+        if (is_small(angles.vertex_deg[v])) at_facet_[f].push_back(v);
+      for (const Index s : domain.facets[f].segments)
+        if (is_small(angles.segment_deg[s])) at_facet_[f].push_back(segment_bit | s);
+      segments_of_facet_[f] = domain.facets[f].segments;
+    }
+    position_.reserve(domain.vertices.size());
+    for (const auto& p : domain.vertices) position_.push_back(to_vec(p));
+    vertex_angle_.reserve(domain.vertices.size());
+    for (const double d : angles.vertex_deg) vertex_angle_.push_back(radians(d));
+    for (Index s = 0; s < domain.segments.size(); ++s) {
+      segment_angle_.push_back(radians(angles.segment_deg[s]));
+      ends_.push_back(domain.segments[s].vertices);
+    }
+  }
+
+  const std::vector<Place>& angles_at(int dimension, Index feature) const {
+    return dimension == 1 ? at_segment_[feature] : at_facet_[feature];
+  }
+  bool contains_segment(Index facet, Index segment) const {
+    return std::binary_search(segments_of_facet_[facet].begin(), segments_of_facet_[facet].end(), segment);
+  }
+
+  /// How close two features that meet in a small angle are at p at least: half of the distance that the angle makes.
+  double squared_gap(Place place, const Vec_3& p) const {
+    const bool segment = place & segment_bit;
+    const auto i = static_cast<Index>(place & ~segment_bit);
+    const double angle = segment ? segment_angle_[i] : vertex_angle_[i];
+    double d2 = 0;
+    if (segment) {
+      const Vec_3 a = position_[ends_[i][0]], u = position_[ends_[i][1]] - a;
+      const double t = std::clamp(dot(p - a, u) / dot(u, u), 0.0, 1.0);
+      d2 = squared_distance(p, a + t * u);
+    } else {
+      d2 = squared_distance(p, position_[i]);
+    }
+    return 0.25 * angle * angle * d2;
+  }
+
   std::vector<bool> is_acute_vertex_;
+  std::vector<std::vector<Place>> at_segment_, at_facet_;  ///< the small angles there, ascending
+  std::vector<std::vector<Index>> segments_of_facet_;
+  std::vector<std::array<Index, 2>> ends_;
+  std::vector<Vec_3> position_;
+  std::vector<double> vertex_angle_, segment_angle_;
   Vertex_search::Tree vertices_;
   Segments segments_;
   Segment_tree segment_tree_;

@@ -16,6 +16,7 @@
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/presence_3.h>
 #include <pgdr/conforming/split_point_3.h>
+#include <pgdr/conforming/split_spacing_3.h>
 #include <pgdr/domain/region_3.h>
 #include <pgdr/mesh/cavity_3.h>
 
@@ -44,8 +45,7 @@ class Feature_refiner_3 {
   using Errand = Feature_errand_3<Cell_handle>;
 
   Feature_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
-      : tr_(tr), complex_(complex), acute_(acute), cavity_(tr),
-        squared_min_edge_(min_edge_length * min_edge_length) {}
+      : tr_(tr), complex_(complex), acute_(acute), spacing_(acute, min_edge_length), cavity_(tr) {}
 
   /// The cavity that this refiner works with, shared with whoever inserts volume points on the same thread.
   Cavity_3<Tr>& cavity() { return cavity_; }
@@ -101,7 +101,7 @@ class Feature_refiner_3 {
     if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
     const Point p(m.x, m.y, m.z);
     if (!cavity_.find(p, seed_for_subsegment(s, p))) return Split_outcome::refused;
-    if (is_too_close(m, reason, guard, 0.5 * length(b - a))) return abandon();
+    if (spacing_.is_too_close(cavity_, m, {1, s.segment}, reason, guard, 0.5 * length(b - a))) return abandon();
 
     features_.gather(complex_, cavity_);
     features_.mark_deleted(complex_, true);
@@ -111,8 +111,7 @@ class Feature_refiner_3 {
         features_.mark_deleted(complex_, false);
         return abandon();
       }
-    const Vertex_handle v = commit(p, m);
-    v->set_feature(1, s.segment);
+    const Vertex_handle v = commit(p, m, {1, s.segment});
     // Vertices on the shell of one acute corner come as close to each other as the angles there make them; what
     // counts as their insertion radius is the shell's.
     for (const Vertex_handle end : s.vertices)
@@ -147,15 +146,14 @@ class Feature_refiner_3 {
       }
     const double radius =
         triangle_circumradius(position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2]));
-    if (is_too_close(m, reason, guard, radius)) return abandon();
+    if (spacing_.is_too_close(cavity_, m, {2, t.facet}, reason, guard, radius)) return abandon();
     features_.mark_deleted(complex_, true);
     stars_.resize(1);
     if (!stars_[0].plan(complex_, at.subfacet, p, Complex::none)) {
       features_.mark_deleted(complex_, false);
       return abandon();
     }
-    const Vertex_handle v = commit(p, m);
-    v->set_feature(2, t.facet);
+    const Vertex_handle v = commit(p, m, {2, t.facet});
     finish(v, {Complex::none, Complex::none}, Complex::none);
     return Split_outcome::inserted;
   }
@@ -330,15 +328,6 @@ class Feature_refiner_3 {
     return reason == Split_reason::missing ? Split_reason::missing : Split_reason::encroached;
   }
 
-  bool is_too_close(const Vec_3& m, Split_reason reason, const Split_guard& guard, double radius) const {
-    const double d2 = cavity_.squared_insertion_radius(m);
-    if (d2 < squared_min_edge_) return true;
-    if (reason == Split_reason::missing || d2 >= guard.floor * guard.floor * (1 - 1e-9)) return false;
-    if (guard.count == 0) return acute_.contains(m, 4 * radius);
-    return std::any_of(guard.where.begin(), guard.where.begin() + static_cast<std::ptrdiff_t>(guard.count),
-                       [&](const Vec_3& p) { return acute_.contains(p, guard.reach); });
-  }
-
   Split_outcome abandon() {
     cavity_.abandon();
     return Split_outcome::refused;
@@ -384,9 +373,10 @@ class Feature_refiner_3 {
     return {from, Complex::none};
   }
 
-  Vertex_handle commit(const Point& p, const Vec_3& m) {
-    const double radius = std::sqrt(cavity_.squared_insertion_radius(m));
+  Vertex_handle commit(const Point& p, const Vec_3& m, const Feature_id& on) {
+    const double radius = std::sqrt(spacing_.squared_distance(cavity_, m, on));
     const Vertex_handle v = cavity_.commit(p);
+    v->set_feature(on.dimension, on.index);
     v->set_insertion_radius(radius);
     ++inserted_;
     return v;
@@ -472,6 +462,7 @@ class Feature_refiner_3 {
   Tr& tr_;
   Complex& complex_;
   const Acute_neighborhood_3& acute_;
+  Split_spacing_3<Tr> spacing_;
   Cavity_3<Tr> cavity_;
   Cavity_features_3<Tr> features_;
   std::vector<Facet_star_3<Tr>> stars_;
@@ -485,7 +476,6 @@ class Feature_refiner_3 {
   Split_elsewhere elsewhere_;
   std::vector<Cell_id> fresh_cells_;
   std::vector<Cell_id> unlabelled_cells_;
-  double squared_min_edge_;
   std::size_t inserted_ = 0;
   bool keep_fresh_ = false;
   bool torn_ = false;

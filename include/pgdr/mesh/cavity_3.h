@@ -81,12 +81,19 @@ class Cavity_3 {
   /// Squared distance from p to the nearest vertex of the cavity, hence of the triangulation (the nearest
   /// neighbour of a new Delaunay vertex is adjacent to it).
   double squared_insertion_radius(const Vec_3& p) const {
+    return squared_insertion_radius(p, [](Vertex_handle) { return false; });
+  }
+
+  /// The same without the vertices that a predicate names.
+  template <class Ignored>
+  double squared_insertion_radius(const Vec_3& p, const Ignored& is_ignored) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Facet& f : boundary_)
       for (int j = 0; j < 4; ++j) {
         const Vertex_handle v = f.first->vertex(j);
-        if (j != f.second && v != tr_->infinite_vertex())
-          nearest = std::min(nearest, squared_distance(p, position(v)));
+        if (j == f.second || v == tr_->infinite_vertex()) continue;
+        const double d2 = squared_distance(p, position(v));
+        if (d2 < nearest && !is_ignored(v)) nearest = d2;
       }
     return nearest;
   }

@@ -54,7 +54,8 @@ struct Check_options {
 ///
 /// - `ratio`: no tetrahedron is over the bound, except near small angles of the domain: within four
 ///   circumradii (from its nearest vertex or its centroid) of a vertex or segment where features meet at
-///   less than 60 degrees.
+///   less than 60 degrees, or where its shortest edge joins two features that meet there, as close to each
+///   other as the angle makes them: a needle is a small angle from end to end.
 ///
 /// Never throws for a bad mesh. `domain`: null, or the input that the mesh was made from.
 std::vector<Check_line> check_mesh(const Indexed_mesh_3& mesh,

@@ -552,8 +552,10 @@ class Delaunay_leaf_refiner_3 {
   Split_outcome split_obstacle(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
                                const Tetrahedron_points& corners, const std::vector<Piece_id>& refused) const {
     Features& features = w.features_;
-    const Split_guard guard{shortest_allowed(id.cell, ball, corners, criteria_.is_over_ratio(ball)), corners, 4,
-                            4 * std::sqrt(ball.squared_radius)};
+    const Allowance allowed = shortest_allowed(id.cell, ball, corners, criteria_.is_over_ratio(ball), acute_);
+    const Split_guard guard{allowed.shortest, corners, 4,
+                            allowed.is_explained ? std::numeric_limits<double>::infinity()
+                                                 : 4 * std::sqrt(ball.squared_radius)};
     const bool segments = w.obstacles_.are_subsegments();
     for (const Piece_id& piece : w.obstacles_.to_split()) {
       if (std::any_of(refused.begin(), refused.end(), [&](const Piece_id& r) {

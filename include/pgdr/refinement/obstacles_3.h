@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/encroachment_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
@@ -71,21 +72,34 @@ class Obstacles_3 {
   std::vector<Piece_id> subfacets_;
 };
 
-/// The length that a split on behalf of a tetrahedron may not go below next to small angles: half its shortest
-/// edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on the shell of one
-/// acute corner the radius of the shell. A tetrahedron that is only too large may also halve its circumradius.
+/// What keeps a tetrahedron's splits from going on for ever next to small angles.
+struct Allowance {
+  double shortest = 0;  ///< a split on its behalf may not make edges below this next to a small angle
+  bool is_explained =
+      false;  ///< its shortest edge joins features that meet at a small angle: it is next to one
+};
+
+/// Half its shortest edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on features
+/// that meet at a small angle the smaller of their insertion radii. A tetrahedron that is only too large may also halve
+/// its circumradius.
 template <class Cell_handle>
-double shortest_allowed(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners,
-                      bool is_over_ratio) {
-  double allowed = 0.5 * std::sqrt(ball.squared_shortest);
+Allowance shortest_allowed(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners,
+                           bool is_over_ratio, const Acute_neighborhood_3& acute) {
+  Allowance a{0.5 * std::sqrt(ball.squared_shortest), false};
   for (int i = 0; i < 4; ++i)
     for (int j = i + 1; j < 4; ++j) {
-      const double d2 = squared_distance(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]);
+      const Vec_3 &p = corners[static_cast<std::size_t>(i)], &q = corners[static_cast<std::size_t>(j)];
+      const double d2 = squared_distance(p, q);
       if (d2 > ball.squared_shortest) continue;
-      const double shell = std::min(c->vertex(i)->insertion_radius(), c->vertex(j)->insertion_radius());
-      if (shell * shell > d2) allowed = std::max(allowed, shell);
+      const auto v = c->vertex(i), w = c->vertex(j);
+      const double radius = std::min(v->insertion_radius(), w->insertion_radius());
+      if (radius * radius <= d2) continue;
+      a.shortest = std::max(a.shortest, radius);
+      a.is_explained = a.is_explained ||
+                       acute.explains(v->in_dimension(), v->index(), p, w->in_dimension(), w->index(), q);
     }
-  return is_over_ratio ? allowed : std::min(allowed, 0.5 * std::sqrt(ball.squared_radius));
+  if (!is_over_ratio) a.shortest = std::min(a.shortest, 0.5 * std::sqrt(ball.squared_radius));
+  return a;
 }
 
 }  // namespace pgdr

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes real models by quality alone, checks the meshes, and compares them with TetGen's.
+
+For every model: `pgdr mesh MODEL --radius-edge-ratio 2 --ignore-region-sizes`, `pgdr check --plc MODEL`, and TetGen 1.5
+on the PLC that pgdr understood (`pgdr info --write-plc`, near-coplanar facets fused): `tetgen -pMq2.0/0`. Models that a
+run does not finish within the limit are reported as such. Prints a table in Markdown.
+
+usage: bench/robustness.py [--models FOLDER] [--pgdr PROGRAM] [--limit SECONDS] [--threads N] [NAME...]
+Needs: cmake --build build/release --target pgdr-app; Debian's package tetgen.
+"""
+
+import argparse
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+from measure import ROOT, median, note, table
+
+BOUND = 2.0
+
+
+class Result(NamedTuple):
+    tetrahedra: int
+    over: int  # above the bound: ours are all exempt, or the check fails
+    seconds: float
+    remark: str
+
+
+def run(command, limit, folder):
+    """Exit code (None: out of time), seconds and what it printed."""
+    begin = time.perf_counter()
+    try:
+        done = subprocess.run([str(c) for c in command], cwd=folder, timeout=limit, capture_output=True, text=True)
+    except subprocess.TimeoutExpired:
+        return None, limit, ""
+    return done.returncode, time.perf_counter() - begin, done.stdout + done.stderr
+
+
+def ours(pgdr, model, limit, threads, folder):
+    stats = folder / "stats.json"
+    code, seconds, text = run([pgdr, "mesh", model, "--radius-edge-ratio", BOUND, "--ignore-region-sizes", "--threads",
+                               threads, "--quiet", "--stats", stats, "-o", folder / "out.mesh"], limit, folder)
+    if code is None:
+        return Result(0, 0, seconds, "no end")
+    if code != 0:
+        return Result(0, 0, seconds, f"exit code {code}: {text.strip().splitlines()[-1] if text.strip() else ''}")
+    numbers = json.loads(stats.read_text(encoding="utf-8"))
+    code, _, _ = run([pgdr, "check", folder / "out.mesh", "--plc", model], limit, folder)
+    return Result(numbers["tetrahedra"], numbers["exempt_tetrahedra"], seconds, "" if code == 0 else "check fails")
+
+
+def ratio(p):
+    """Radius-edge ratio of a tetrahedron."""
+    a, b, c = ([x - y for x, y in zip(v, p[3])] for v in p[:3])
+    def dot(u, v):
+        return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    def cross(u, v):
+        return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+    bc, ca, ab = cross(b, c), cross(c, a), cross(a, b)
+    volume = abs(dot(a, bc))
+    o = [dot(a, a) * x + dot(b, b) * y + dot(c, c) * z for x, y, z in zip(bc, ca, ab)]
+    shortest = min(math.dist(u, v) for i, u in enumerate(p) for v in p[:i])
+    return math.inf if volume == 0 else math.sqrt(dot(o, o)) / (2 * volume) / shortest
+
+
+def rows_of(path):
+    with open(path, encoding="ascii") as lines:
+        for line in lines:
+            words = line.split("#")[0].split()
+            if words:
+                yield words
+
+
+def tetgens(tetgen, plc, limit, folder):
+    code, seconds, text = run([tetgen, "-pMQq2.0/0", plc], limit, folder)
+    name = str(plc)[: -len(".poly")] + ".1"
+    if code is None:
+        return Result(0, 0, seconds, "no end")
+    if code != 0 or not Path(name + ".ele").exists():
+        return Result(0, 0, seconds, f"exit code {code}")
+    nodes = rows_of(name + ".node")
+    next(nodes)
+    points = {words[0]: tuple(map(float, words[1:4])) for words in nodes}
+    elements = rows_of(name + ".ele")
+    next(elements)
+    ratios = [ratio([points[v] for v in words[1:5]]) for words in elements]
+    return Result(len(ratios), sum(r > BOUND * (1 + 1e-9) for r in ratios), seconds, "")
+
+
+def corners(pgdr, model, plc, folder):
+    """Writes the PLC as understood; plane corners below 14.48 degrees and the smallest angles."""
+    _, _, text = run([pgdr, "info", model, "--write-plc", plc], 600, folder)
+    def number(label):
+        found = re.search(label + r"\s+([\d.,]+)", text)
+        return float(found.group(1).replace(",", "").rstrip(".")) if found else 0.0
+    return int(number("plane angles < 14.48")), number("smallest dihedral angle"), number("smallest plane angle")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", help="models, by the beginning of their names; all by default")
+    parser.add_argument("--models", type=Path, default=os.environ.get("PGDR_INPUTS") or ROOT.parent / "shared" / "inputs")
+    parser.add_argument("--pgdr", type=lambda p: Path(p).resolve(), default=ROOT / "build" / "release" / "pgdr")
+    parser.add_argument("--limit", type=float, default=600)
+    parser.add_argument("--threads", type=int, default=2)
+    arguments = parser.parse_args()
+    tetgen = shutil.which("tetgen")
+    if not tetgen:
+        sys.exit("tetgen is not installed")
+    models = sorted(p for p in Path(arguments.models).iterdir()
+                    if p.suffix in (".off", ".poly", ".smesh") and "_bad_" not in p.name
+                    and (not arguments.names or any(p.name.startswith(n) for n in arguments.names)))
+    rows, ratios = [], []
+    for model in models:
+        with tempfile.TemporaryDirectory(prefix="pgdr-robustness-") as scratch:
+            folder = Path(scratch)
+            low_corners, dihedral, plane = corners(arguments.pgdr, model, folder / "fused.poly", folder)
+            our = ours(arguments.pgdr, model, arguments.limit, arguments.threads, folder)
+            their = tetgens(tetgen, folder / "fused.poly", arguments.limit, folder)
+        allowed = 0 if min(dihedral, plane) >= 60 else max(their.over // 2, 2 * low_corners)
+        more = our.tetrahedra / their.tetrahedra if their.tetrahedra and our.tetrahedra else 0
+        limit = 8 if min(dihedral, plane) < 5 else 4
+        remarks = [r for r in (our.remark, their.remark and "TetGen: " + their.remark) if r]
+        if our.over > allowed:
+            remarks.append("too many exempt")
+        if more > limit and our.tetrahedra > their.tetrahedra + 3000:
+            remarks.append("too large")
+        if more:
+            ratios.append(more)
+        rows.append([model.stem, f"{dihedral:.3g}", f"{plane:.3g}", f"{our.tetrahedra:,}", f"{their.tetrahedra:,}",
+                     f"{more:.2f}" if more else "", f"{our.over:,}", f"{allowed:,}", f"{their.over:,}",
+                     f"{our.seconds:.1f}", f"{their.seconds:.1f}", "; ".join(remarks)])
+        note(" | ".join(rows[-1]))
+    print(table(["model", "dihedral", "plane angle", "pgdr", "TetGen", "ratio", "exempt", "allowed", "TetGen over",
+                 "pgdr, s", "TetGen, s", "remarks"], rows))
+    if ratios:
+        print(f"\nMedian ratio of tetrahedra over {len(ratios)} models: {median(ratios):.2f}")
+
+
+if __name__ == "__main__":
+    main()

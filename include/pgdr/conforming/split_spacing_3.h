@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_SPLIT_SPACING_3_H
+#define PGDR_CONFORMING_SPLIT_SPACING_3_H
+
+#include <algorithm>
+#include <cstddef>
+
+#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/feature_request.h>
+#include <pgdr/domain/vec_3.h>
+#include <pgdr/mesh/cavity_3.h>
+
+namespace pgdr {
+
+/// A segment or a facet.
+struct Feature_id {
+  int dimension;  ///< 1: segment, 2: facet
+  Index index;
+};
+
+/// How close to other vertices a point on a feature may be.
+///
+/// Vertices that are near only because their feature and the point's meet at a small angle do not count: the two features
+/// get points at like places, as close to each other as the angle makes them, and that is no reason for shorter edges along
+/// either of them. (J. Shewchuk and H. Si, *Higher-quality tetrahedral mesh generation for domains with small angles by
+/// constrained Delaunay refinement*, SoCG 2014, call such edges seditious.) Along each feature, then, distances are bounded
+/// from below, and the refinement ends.
+template <class Tr>
+class Split_spacing_3 {
+ public:
+  Split_spacing_3(const Acute_neighborhood_3& acute, double min_edge_length)
+      : acute_(acute), squared_min_edge_(min_edge_length * min_edge_length) {}
+
+  /// Squared distance from m to the nearest vertex of its cavity that counts.
+  double squared_distance(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on) const {
+    return cavity.squared_insertion_radius(m, [&](typename Tr::Vertex_handle v) {
+      return acute_.explains(on.dimension, on.index, m, v->in_dimension(), v->index(), position(v));
+    });
+  }
+
+  /// Whether m, the split point of a piece of this radius, is not to be inserted.
+  bool is_too_close(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, Split_reason reason,
+                    const Split_guard& guard, double radius) const {
+    const double d2 = cavity.squared_insertion_radius(m);
+    if (d2 < squared_min_edge_) return true;
+    const double floor2 = guard.floor * guard.floor * (1 - 1e-9);
+    if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return false;
+    if (guard.count == 0) return acute_.contains(m, 4 * radius);
+    return std::any_of(guard.where.begin(), guard.where.begin() + static_cast<std::ptrdiff_t>(guard.count),
+                       [&](const Vec_3& p) { return acute_.contains(p, guard.reach); });
+  }
+
+ private:
+  const Acute_neighborhood_3& acute_;
+  double squared_min_edge_;
+};
+
+}  // namespace pgdr
+
+#endif
