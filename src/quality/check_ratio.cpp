@@ -29,6 +29,11 @@ namespace {
 constexpr std::array<double, 3> class_bounds_deg{Small_angles::critical_plane_angle_deg, 30, 60};
 constexpr std::array<const char*, 3> class_names{"< 14.48", "< 30", "< 60"};
 
+Plain::Point_3 plain(const Epick_domain& domain, Index v) {
+  const auto& p = domain.vertices[v];
+  return Plain::Point_3(p.x(), p.y(), p.z());
+}
+
 /// The vertices and segments of a domain whose smallest angle is in one class.
 class Sharp_features {
  public:
@@ -58,23 +63,19 @@ class Sharp_features {
 
 using Sharp_classes = std::array<Sharp_features, class_bounds_deg.size()>;
 
-std::unique_ptr<Sharp_classes> sharp_features(const Epick_domain& domain) {
+std::unique_ptr<Sharp_classes> sharp_features(const Epick_domain& domain, const Small_angles& angles) {
   auto classes = std::make_unique<Sharp_classes>();
   const auto class_of = [](double deg) {
     return std::size_t(std::upper_bound(class_bounds_deg.begin(), class_bounds_deg.end(), deg) -
                        class_bounds_deg.begin());
   };
-  const auto plain = [&](Index v) {
-    const auto& p = domain.vertices[v];
-    return Plain::Point_3(p.x(), p.y(), p.z());
-  };
-  const Small_angles angles = small_angles_3(domain);
   for (std::size_t v = 0; v < angles.vertex_deg.size(); ++v)
     if (const std::size_t c = class_of(angles.vertex_deg[v]); c < classes->size())
-      (*classes)[c].add(plain(Index(v)));
+      (*classes)[c].add(plain(domain, Index(v)));
   for (std::size_t s = 0; s < angles.segment_deg.size(); ++s)
     if (const std::size_t c = class_of(angles.segment_deg[s]); c < classes->size())
-      (*classes)[c].add(plain(domain.segments[s].vertices[0]), plain(domain.segments[s].vertices[1]));
+      (*classes)[c].add(plain(domain, domain.segments[s].vertices[0]),
+                        plain(domain, domain.segments[s].vertices[1]));
   for (auto& c : *classes) c.build();
   return classes;
 }
@@ -83,16 +84,18 @@ std::unique_ptr<Sharp_classes> sharp_features(const Epick_domain& domain) {
 /// other than half of what the angle makes them.
 class Explained_edges {
  public:
-  explicit Explained_edges(const Epick_domain& domain) : domain_(domain), angles_(small_angles_3(domain)) {
+  Explained_edges(const Epick_domain& domain, const Small_angles& angles) : domain_(domain), angles_(angles) {
     tolerance_ = std::max(domain.tolerance, 1e-9 * domain.diagonal);
     for (std::size_t s = 0; s < domain.segments.size(); ++s) {
       const auto& ends = domain.segments[s].vertices;
-      segment_items_.push_back({Plain::Segment_3(plain(ends[0]), plain(ends[1])), std::uint32_t(s)});
+      segment_items_.push_back(
+          {Plain::Segment_3(plain(domain, ends[0]), plain(domain, ends[1])), std::uint32_t(s)});
     }
     for (std::size_t f = 0; f < domain.facets.size(); ++f)
       for (const auto& t : domain.facets[f].triangles)
         triangle_items_.push_back(
-            {Plain::Triangle_3(plain(t[0]), plain(t[1]), plain(t[2])), std::uint32_t(f)});
+            {Plain::Triangle_3(plain(domain, t[0]), plain(domain, t[1]), plain(domain, t[2])),
+             std::uint32_t(f)});
     segments_.emplace(segment_items_.begin(), segment_items_.end());
     triangles_.emplace(triangle_items_.begin(), triangle_items_.end());
   }
@@ -110,11 +113,6 @@ class Explained_edges {
     int dimension;
     std::uint32_t index;
   };
-
-  Plain::Point_3 plain(Index v) const {
-    const auto& p = domain_.vertices[v];
-    return Plain::Point_3(p.x(), p.y(), p.z());
-  }
 
   std::vector<Feature> features_at(const P& p) const {
     const CGAL::Bbox_3 box(p[0] - tolerance_, p[1] - tolerance_, p[2] - tolerance_, p[0] + tolerance_,
@@ -134,12 +132,13 @@ class Explained_edges {
     const auto& facets = domain_.facets;
     const auto bounds = [&](const Feature& s, const Feature& f) {
       return s.dimension == 1 && f.dimension == 2 &&
-             std::binary_search(facets[f.index].segments.begin(), facets[f.index].segments.end(), s.index);
+             std::ranges::binary_search(facets[f.index].segments, s.index);
     };
     if (bounds(a, b) || bounds(b, a)) return false;
     const double length = std::sqrt(squared_distance(p, q));
     const auto wide_enough = [&](double degrees, double distance) {
-      return degrees < 60 && length * (1 + 1e-6) >= degrees * std::numbers::pi / 360 * distance;
+      return degrees < class_bounds_deg.back() &&
+             length * (1 + 1e-6) >= degrees * std::numbers::pi / 360 * distance;
     };
     for (const Index v : vertices_of(a))
       if (std::ranges::binary_search(vertices_of(b), v)) {
@@ -168,7 +167,7 @@ class Explained_edges {
   }
 
   const Epick_domain& domain_;
-  Small_angles angles_;
+  const Small_angles& angles_;
   double tolerance_ = 0;
   std::vector<Tagged<Plain::Segment_3>> segment_items_;
   std::vector<Tagged<Plain::Triangle_3>> triangle_items_;
@@ -200,6 +199,7 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
   Failures failures;
   std::array<std::size_t, class_bounds_deg.size()> excused{};
   std::size_t between = 0;
+  std::optional<Small_angles> angles;
   std::unique_ptr<Sharp_classes> sharp;
   std::optional<Explained_edges> explained;
   struct Found {
@@ -225,7 +225,10 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
     const auto& t = mesh.tetrahedra[i];
     const P &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
     const auto [rr, ll] = squared_radius_and_edge(mesh, i);
-    if (domain != nullptr && !sharp) sharp = sharp_features(*domain);
+    if (domain != nullptr && !sharp) {
+      angles = small_angles_3(*domain);
+      sharp = sharp_features(*domain, *angles);
+    }
     std::size_t nearest_class = class_bounds_deg.size();
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; sharp && k < sharp->size(); ++k) {
@@ -241,7 +244,7 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
       ++excused[nearest_class];
       continue;
     }
-    if (domain != nullptr && !explained) explained.emplace(*domain);
+    if (domain != nullptr && !explained) explained.emplace(*domain, *angles);
     const auto [p, q] = shortest_edge({a, b, c, d});
     if (explained && explained->contains(p, q))
       ++between;

@@ -10,7 +10,6 @@
 
 #include <pgdr/independence/buffer_condition.h>
 #include <pgdr/independence/strong_independence.h>
-#include <pgdr/independence/zone_condition.h>
 #include <pgdr/octree/linear_octree_3.h>
 
 #include "catch.h"
@@ -48,12 +47,6 @@ bool satisfies_buffer_condition(const Delaunay& mesh, const Linear_octree_3& oct
         return false;
   }
   return true;
-}
-
-Requirement zone_requirement(const Linear_octree_3& octree, std::uint32_t leaf) {
-  std::vector<Requirement> all;
-  pgdr::Zone_condition().requirements(octree, leaf, all);
-  return all.at(0);
 }
 
 bool contains(const Delaunay& mesh, const Point& p) { return !mesh.is_infinite(mesh.locate(p)); }

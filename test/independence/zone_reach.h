@@ -6,16 +6,25 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <vector>
 
-#include <pgdr/independence/separation.h>
+#include <pgdr/independence/zone_condition.h>
+#include <pgdr/octree/linear_octree_3.h>
 
 #include "independence/random_triangulations.h"
 
 namespace pgdr_test {
 
 using Coordinates = std::array<double, 3>;
+
+/// What the zone condition asks for a leaf, which is the hole of it.
+inline pgdr::Requirement zone_requirement(const pgdr::Linear_octree_3& octree, std::uint32_t leaf) {
+  std::vector<pgdr::Requirement> all;
+  pgdr::Zone_condition().requirements(octree, leaf, all);
+  return all.at(0);
+}
 
 /// From the hole of a requirement, the leaf, in the maximum norm.
 inline double distance(const pgdr::Requirement& r, const Point& p) {
@@ -55,15 +64,11 @@ struct Reach {
 inline void measure(const Delaunay& mesh, const pgdr::Requirement& r, double shortest, const Point& p,
                     Reach& reach) {
   const double d = shortest / 4;
-  Delaunay::Locate_type type{};
-  int i = 0, j = 0;
-  const Delaunay::Cell_handle start = mesh.locate(p, type, i, j);
-  if (type == Delaunay::VERTEX) return;
-  std::vector<Delaunay::Cell_handle> cavity, around;
-  std::vector<Delaunay::Facet> boundary;
-  mesh.find_conflicts(p, start, std::back_inserter(boundary), std::back_inserter(cavity));
+  if (is_vertex(mesh, p)) return;
+  const Cavity cavity(mesh, p);
+  std::vector<Delaunay::Cell_handle> around;
   bool infinite = false;
-  for (const Delaunay::Cell_handle c : cavity) {
+  for (const Delaunay::Cell_handle c : cavity.cells) {
     infinite = infinite || mesh.is_infinite(c);
     for (int k = 0; k < 4; ++k) {
       const Delaunay::Vertex_handle v = c->vertex(k);
