@@ -279,6 +279,22 @@ TEST_CASE("Triangles face away from the meshed side, and from the smaller region
   CHECK(between > 2);
 }
 
+TEST_CASE("Volumes without seeds are numbered alike by the mesher and from the facets alone", "[refinement]") {
+  // The inner box comes first: its vertices are the first ones of both volumes.
+  for (const bool inner_first : {true, false}) {
+    CAPTURE(inner_first);
+    Plc plc;
+    add_box(plc, inner_first ? std::array<double, 3>{1, 1, 1} : std::array<double, 3>{0, 0, 0},
+            inner_first ? std::array<double, 3>{2, 2, 2} : std::array<double, 3>{3, 3, 3});
+    add_box(plc, inner_first ? std::array<double, 3>{0, 0, 0} : std::array<double, 3>{1, 1, 1},
+            inner_first ? std::array<double, 3>{3, 3, 3} : std::array<double, 3>{2, 2, 2});
+    for (const Plc& placed : {plc, tilted(plc)}) {
+      const Mesh mesh = refined(placed);
+      CHECK(failures(pgdr::check_mesh(pgdr::indexed_mesh_3(mesh), &mesh.domain())) == "");
+    }
+  }
+}
+
 TEST_CASE("Region sizes bound volumes unless they are ignored", "[refinement]") {
   const Plc plc = read("two_regions.poly");
   REQUIRE(plc.regions.size() == 2);

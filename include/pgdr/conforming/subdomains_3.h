@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
@@ -102,6 +103,7 @@ class Subdomain_labeler_3 {
   struct Volume {
     int depth = -1;                ///< facets between it and the outside
     Index first_vertex = std::numeric_limits<Index>::max();
+    std::uint64_t first_side = std::numeric_limits<std::uint64_t>::max();  ///< twice the facet's number, and 1 for its back
     bool hole = false;
     std::int32_t region = -1;      ///< seed that names it
     std::int32_t label = 0;
@@ -133,6 +135,8 @@ class Subdomain_labeler_3 {
           for (int j = 0; j < 4; ++j)
             if (j != i && c->vertex(j)->in_dimension() == 0)
               volumes_.back().first_vertex = std::min(volumes_.back().first_vertex, c->vertex(j)->index());
+          const std::uint64_t facet = complex_.subfacet(c->subfacet(i)).facet;
+          volumes_.back().first_side = std::min(volumes_.back().first_side, 2 * facet + !complex_.is_in_front(c, i));
         }
       }
     }
@@ -181,8 +185,8 @@ class Subdomain_labeler_3 {
         unnamed.push_back(&v);
       }
     }
-    std::sort(unnamed.begin(), unnamed.end(),
-              [](const Volume* a, const Volume* b) { return a->first_vertex < b->first_vertex; });
+    // The order of `Volumes_3`, which numbers them from the facets alone.
+    std::ranges::sort(unnamed, {}, [](const Volume* v) { return std::pair(v->first_vertex, v->first_side); });
     int next = 1;
     for (Volume* v : unnamed) {
       while (std::any_of(domain.regions.begin(), domain.regions.end(), [&](const auto& r) { return r.id == next; }))

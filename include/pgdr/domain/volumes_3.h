@@ -3,6 +3,7 @@
 #define PGDR_DOMAIN_VOLUMES_3_H
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -158,12 +159,19 @@ class Volumes_3 {
 
   void number_volumes(const domain_detail::Facet_shells& shells, boost::disjoint_sets_with_storage<>& joined,
                       std::size_t outside) {
-    std::vector<Index> first_vertex(shells.size() + 1, std::numeric_limits<Index>::max());
-    for (std::size_t side = 0; side < 2 * soup_.triangles.size(); ++side)
-      for (Index v : soup_.triangles[side / 2]) {
-        Index& first = first_vertex[joined.find_set(shells.shell(side))];
-        first = std::min(first, v);
-      }
+    // Volumes may have their smallest vertex in common, but no side of a facet.
+    struct Place {
+      Index vertex = std::numeric_limits<Index>::max();
+      std::size_t side = std::numeric_limits<std::size_t>::max();
+      auto operator<=>(const Place&) const = default;
+    };
+    std::vector<Place> first(shells.size() + 1);
+    for (std::size_t side = 0; side < 2 * soup_.triangles.size(); ++side) {
+      Place& place = first[joined.find_set(shells.shell(side))];
+      const auto& triangle = soup_.triangles[side / 2];
+      place.vertex = std::min(place.vertex, *std::ranges::min_element(triangle));
+      place.side = std::min(place.side, 2 * std::size_t{soup_.facet[side / 2]} + side % 2);
+    }
     std::vector<double> volume(shells.size() + 1, 0);
     std::vector<char> listed(shells.size() + 1, 0);
     std::vector<std::size_t> roots;
@@ -176,7 +184,7 @@ class Volumes_3 {
     const std::size_t outside_root = joined.find_set(outside);
     std::erase(roots, outside_root);
     std::stable_sort(roots.begin(), roots.end(),
-                     [&](std::size_t a, std::size_t b) { return first_vertex[a] < first_vertex[b]; });
+                     [&](std::size_t a, std::size_t b) { return first[a] < first[b]; });
     roots.insert(roots.begin(), outside_root);
     std::vector<std::size_t> number(shells.size() + 1, 0);
     for (std::size_t i = 0; i < roots.size(); ++i) {
@@ -184,7 +192,7 @@ class Volumes_3 {
       Volume v;
       v.outside = i == 0;
       v.volume = v.outside ? 0 : volume[roots[i]];
-      v.first_vertex = first_vertex[roots[i]];
+      v.first_vertex = first[roots[i]].vertex;
       volumes_.push_back(v);
     }
     side_volume_.resize(2 * soup_.triangles.size());
