@@ -50,11 +50,13 @@ class Mesher_3 {
   Mesh run(const Sizing& sizing) {
     start_ = Clock::now();
     build_complex(mesh_.complex(), features_.pool(), insert_domain_vertices(mesh_.triangulation(), mesh_.domain()));
+    features_.images().find_facets();
     const auto on_hull = corner_of_hull(mesh_.triangulation());
     lap("triangulation");
     start_segment_recovery(mesh_.triangulation(), features_);
     while (features_.has_subsegments() && !should_stop()) features_.step();
     start_facet_recovery(mesh_.triangulation(), features_);
+    features_.images().find_facets();
     while (!features_.is_idle() && !should_stop()) features_.step();
     features_.note_mended();
     lap("conforming");

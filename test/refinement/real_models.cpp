@@ -62,6 +62,12 @@ TEST_CASE("Needles are meshed", "[models]") {
   if (!checked("a12_triceratops.off", 1791)) PGDR_SKIP("the real models are not here");
 }
 
+TEST_CASE("Facets that meet at two degrees are meshed", "[models]") {
+  const auto hand = checked("a10_hand.off", 1678);
+  if (!hand) PGDR_SKIP("the real models are not here");
+  CHECK(hand->tetrahedra.size() < 2 * 29981);  // TetGen's number
+}
+
 TEST_CASE("Thin walls are meshed", "[models]") {
   const auto cheese = checked("a13_cheese.off", 40000);
   if (!cheese) PGDR_SKIP("the real models are not here");

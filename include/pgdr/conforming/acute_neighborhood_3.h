@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include <CGAL/AABB_traits.h>
 #endif
 
+#include <pgdr/conforming/facet_wedges_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
@@ -45,7 +47,7 @@ class Acute_neighborhood_3 {
   static constexpr double limit = 60;
 
   template <class K>
-  explicit Acute_neighborhood_3(const Domain_3<K>& domain) {
+  explicit Acute_neighborhood_3(const Domain_3<K>& domain) : wedges_(domain) {
     const Small_angles angles = small_angles_3(domain);
     is_acute_vertex_.resize(domain.vertices.size(), false);
     list_small_angles(domain, angles);
@@ -71,6 +73,8 @@ class Acute_neighborhood_3 {
   /// Whether two features meet at less than `limit` degrees in this domain vertex.
   bool is_acute_vertex(Index v) const { return is_acute_vertex_[v]; }
 
+  const Facet_wedges_3& wedges() const { return wedges_; }
+
   /// Whether p is within `distance` of such a vertex or segment.
   bool contains(const Vec_3& p, double distance) const {
     const Kernel::Point_3 q(p.x, p.y, p.z);
@@ -92,14 +96,18 @@ class Acute_neighborhood_3 {
         contains_segment(p_dimension == 2 ? p_feature : q_feature, p_dimension == 1 ? p_feature : q_feature))
       return false;
     const double gap2 = squared_distance(p, q);
-    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
-      if (*i == *j && gap2 >= squared_gap(*i, p)) return true;
-      const bool both = *i == *j;
-      const bool first = *i < *j;
-      if (both || first) ++i;
-      if (both || !first) ++j;
-    }
-    return false;
+    return std::ranges::any_of(a, [&](Place place) {
+      return gap2 >= squared_gap(place, p) && std::ranges::binary_search(b, place);
+    });
+  }
+
+  /// Whether two features meet at a small angle between segments all of which are longer than `length`.
+  bool meet_between_segments_over(double length, int p_dimension, Index p_feature, int q_dimension,
+                                  Index q_feature) const {
+    const auto& b = angles_at(q_dimension, q_feature);
+    return std::ranges::any_of(angles_at(p_dimension, p_feature), [&](Place place) {
+      return shortest_segment(place) > length && std::ranges::binary_search(b, place);
+    });
   }
 
  private:
@@ -133,6 +141,9 @@ class Acute_neighborhood_3 {
       segment_angle_.push_back(radians(angles.segment_deg[s]));
       ends_.push_back(domain.segments[s].vertices);
     }
+    shortest_at_.assign(position_.size(), std::numeric_limits<double>::infinity());
+    for (const auto& [a, b] : ends_)
+      for (const Index v : {a, b}) shortest_at_[v] = std::min(shortest_at_[v], length(position_[b] - position_[a]));
   }
 
   const std::vector<Place>& angles_at(int dimension, Index feature) const {
@@ -140,6 +151,11 @@ class Acute_neighborhood_3 {
   }
   bool contains_segment(Index facet, Index segment) const {
     return std::binary_search(segments_of_facet_[facet].begin(), segments_of_facet_[facet].end(), segment);
+  }
+
+  double shortest_segment(Place place) const {
+    const auto i = static_cast<Index>(place & ~segment_bit);
+    return place & segment_bit ? length(position_[ends_[i][1]] - position_[ends_[i][0]]) : shortest_at_[i];
   }
 
   /// How close two features that meet in a small angle are at p at least: half of the distance that the angle makes.
@@ -158,12 +174,14 @@ class Acute_neighborhood_3 {
     return 0.25 * angle * angle * d2;
   }
 
+  Facet_wedges_3 wedges_;
   std::vector<bool> is_acute_vertex_;
   std::vector<std::vector<Place>> at_segment_, at_facet_;  ///< the small angles there, ascending
   std::vector<std::vector<Index>> segments_of_facet_;
   std::vector<std::array<Index, 2>> ends_;
   std::vector<Vec_3> position_;
   std::vector<double> vertex_angle_, segment_angle_;
+  std::vector<double> shortest_at_;  ///< length of each vertex's shortest segment
   Vertex_search::Tree vertices_;
   Segments segments_;
   Segment_tree segment_tree_;

@@ -11,12 +11,16 @@
 #include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/encroached_features_3.h>
 #include <pgdr/conforming/encroachment_3.h>
+#include <pgdr/conforming/facet_images_3.h>
 #include <pgdr/conforming/facet_star_3.h>
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/presence_3.h>
+#include <pgdr/conforming/sheet_walk_3.h>
 #include <pgdr/conforming/split_point_3.h>
 #include <pgdr/conforming/split_spacing_3.h>
+#include <pgdr/conforming/torn_features_3.h>
 #include <pgdr/domain/region_3.h>
 #include <pgdr/mesh/cavity_3.h>
 
@@ -45,7 +49,7 @@ class Feature_refiner_3 {
   using Errand = Feature_errand_3<Cell_handle>;
 
   Feature_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
-      : tr_(tr), complex_(complex), acute_(acute), spacing_(acute, min_edge_length), cavity_(tr) {}
+      : tr_(tr), complex_(complex), acute_(acute), spacing_(acute, min_edge_length), cavity_(tr), images_(complex, acute.wedges()) {}
 
   /// The cavity that this refiner works with, shared with whoever inserts volume points on the same thread.
   Cavity_3<Tr>& cavity() { return cavity_; }
@@ -64,6 +68,8 @@ class Feature_refiner_3 {
   void request(bool is_subsegment, const Feature_request& r) {
     (is_subsegment ? queues_.subsegments : queues_.subfacets).push(r);
   }
+
+  Facet_images_3<Tr>& images() { return images_; }
 
   /// Where points may be inserted, and where the vertices of a missing piece must be: all of space to begin with.
   void set_region(const Region_3& region, const Region_3& near) {
@@ -104,6 +110,7 @@ class Feature_refiner_3 {
     if (spacing_.is_too_close(cavity_, m, {1, s.segment}, reason, guard, 0.5 * length(b - a))) return abandon();
 
     features_.gather(complex_, cavity_);
+    if (reason == Split_reason::encroached && tears_protected(m, {1, s.segment}, slot)) return abandon();
     features_.mark_deleted(complex_, true);
     stars_.resize(s.subfacets.size());
     for (std::size_t k = 0; k < s.subfacets.size(); ++k)
@@ -118,6 +125,7 @@ class Feature_refiner_3 {
       if (is_acute(end)) v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
     finish(v, complex_.halve_subsegment(pool_, slot, v), slot);
     complex_.remove_subsegment(pool_, slot);
+    mirror(v);
     return Split_outcome::inserted;
   }
 
@@ -130,7 +138,7 @@ class Feature_refiner_3 {
     if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
     const Point p(m.x, m.y, m.z);
 
-    const Located at = locate(slot, p);
+    const Sheet_place at = walk_in_sheet(complex_, slot, p);
     // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
     const bool yields = reason != Split_reason::flat;
     const auto give_way = [&](std::uint32_t s) {
@@ -147,14 +155,10 @@ class Feature_refiner_3 {
     const double radius =
         triangle_circumradius(position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2]));
     if (spacing_.is_too_close(cavity_, m, {2, t.facet}, reason, guard, radius)) return abandon();
-    features_.mark_deleted(complex_, true);
-    stars_.resize(1);
-    if (!stars_[0].plan(complex_, at.subfacet, p, Complex::none)) {
-      features_.mark_deleted(complex_, false);
-      return abandon();
-    }
-    const Vertex_handle v = commit(p, m, {2, t.facet});
-    finish(v, {Complex::none, Complex::none}, Complex::none);
+    if (reason == Split_reason::encroached && tears_protected(m, {2, t.facet}, Complex::none)) return abandon();
+    const Vertex_handle v = insert_on_facet(at.subfacet, p, m);
+    if (v == Vertex_handle()) return Split_outcome::refused;
+    mirror(v);
     return Split_outcome::inserted;
   }
 
@@ -188,6 +192,7 @@ class Feature_refiner_3 {
 
   /// Where an errand's split point is; for a piece that is gone, anywhere.
   Vec_3 split_point(const Errand& e) const {
+    if (e.is_image()) return e.home;
     if (e.is_subsegment)
       return complex_.is_live_subsegment(e.piece) ? split_point_of_subsegment(e.piece.slot) : e.home;
     return complex_.is_live_subfacet(e.piece) ? split_point_of_subfacet(e.piece.slot, e.reason) : e.home;
@@ -227,6 +232,12 @@ class Feature_refiner_3 {
   bool run(std::unique_ptr<Errand>& errand) {
     using Client = typename Errand::Client;
     Errand& e = *errand;
+    if (e.is_image()) {
+      if (!near_.contains_closed(position(e.by))) return false;
+      images_.add({e.by, e.facet, e.home});
+      put_images();
+      return false;
+    }
     const bool live = e.is_subsegment ? complex_.is_live_subsegment(e.piece) : complex_.is_live_subfacet(e.piece);
     Split_outcome outcome = Split_outcome::inserted;
     if (live)
@@ -248,10 +259,7 @@ class Feature_refiner_3 {
   }
 
  private:
-  struct Located {
-    std::uint32_t subfacet;
-    std::uint32_t subsegment;
-  };
+  using Image = typename Facet_images_3<Tr>::Image;
 
   void handle(bool only_missing) {
     const bool segment = has_subsegments();
@@ -353,24 +361,68 @@ class Feature_refiner_3 {
     return cavity_.find(p, c);
   }
 
-  /// Walks in the sheet from a subfacet to the one that holds p, or to the subsegment in between.
-  Located locate(std::uint32_t from, const Point& p) const {
-    std::uint32_t at = from, before = Complex::none;
-    for (int steps = 0; steps < 100000; ++steps) {
-      const auto& t = complex_.subfacet(at);
-      std::uint32_t next = Complex::none;
-      for (std::size_t i = 0; i < 3 && next == Complex::none; ++i) {
-        const std::uint32_t n = t.neighbors[i];
-        if (n != before && complex_.orientation(t.facet, t.vertices[(i + 1) % 3]->point(),
-                                                t.vertices[(i + 2) % 3]->point(), p) == CGAL::NEGATIVE)
-          next = n;
-      }
-      if (next == Complex::none) return {at, Complex::none};
-      if (next & Complex::subsegment_bit) return {at, next & ~Complex::subsegment_bit};
-      before = at;
-      at = next;
+  /// Gives the facets that meet v's at a small dihedral angle, and pass closer to v than other vertices are, a point at the
+  /// like place (see `Facet_wedges_3`).
+  void mirror(Vertex_handle v) {
+    images_.add_of(v, made_);
+    put_images();
+  }
+
+  void put_images() {
+    while (!images_.empty()) put_image(images_.pop());
+  }
+
+
+  /// Puts an image on its facet, or sends an errand there. Not where the facet is not, or has a vertex as near as v itself
+  /// is, or subsegments are in the way.
+  void put_image(const Image& i) {
+    if (!region_.contains(i.at)) {
+      auto errand = std::make_unique<Errand>();
+      errand->by = i.by;
+      errand->facet = i.facet;
+      errand->home = i.at;
+      outgoing_.emplace_back(i.at, std::move(errand));
+      return;
     }
-    return {from, Complex::none};
+    const Point p(i.at.x, i.at.y, i.at.z);
+    if (!cavity_.find(p, tr_.locate(p, i.by->cell()))) return;
+    features_.gather(complex_, cavity_);
+    const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
+    const double radius = i.by->insertion_radius();
+    const double near = 0.5 * std::min(radius, length(i.at - position(i.by)));
+    const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.facet); };
+    // A segment's point does not mind what it encroaches; neither does its image.
+    const bool yields = i.by->in_dimension() == 2;
+    const auto is_in_the_way = [&](const auto& f) {
+      return f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p));
+    };
+    if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near ||
+        std::ranges::any_of(features_.subsegments(), is_in_the_way))
+      return cavity_.abandon();
+    const Vertex_handle v = insert_on_facet(at, p, i.at);
+    if (v == Vertex_handle()) return;
+    v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
+    images_.add_of(v, made_);
+  }
+
+  /// Inserts p into the subfacet that holds it. None, with the cavity abandoned, if the sheet would not stay whole.
+  /// \pre p's cavity is found and its features are gathered
+  Vertex_handle insert_on_facet(std::uint32_t at, const Point& p, const Vec_3& m) {
+    const Index facet = complex_.subfacet(at).facet;
+    features_.mark_deleted(complex_, true);
+    stars_.resize(1);
+    if (!stars_[0].plan(complex_, at, p, Complex::none)) {
+      features_.mark_deleted(complex_, false);
+      cavity_.abandon();
+      return {};
+    }
+    const Vertex_handle v = commit(p, m, {2, facet});
+    finish(v, {Complex::none, Complex::none}, Complex::none);
+    return v;
+  }
+
+  bool tears_protected(const Vec_3& m, const Feature_id& on, std::uint32_t split) const {
+    return pgdr::tears_protected(complex_, features_, acute_, std::sqrt(cavity_.squared_insertion_radius(m)), on, split);
   }
 
   Vertex_handle commit(const Point& p, const Vec_3& m, const Feature_id& on) {
@@ -389,6 +441,7 @@ class Feature_refiner_3 {
       unmark_survivors(tr_, complex_, star.removed());
       star.apply(complex_, pool_, v, halves, made_);
     }
+    images_.note_made(made_);
     for (const auto& f : features_.subfacets())
       if (f.deleted && complex_.subfacet(f.slot).alive() && complex_.subfacet(f.slot).scratch)
         note_missing_subfacet(f.slot);
@@ -401,61 +454,14 @@ class Feature_refiner_3 {
     for (const std::uint32_t t : made_)
       if (!mark_subfacet(complex_, t, cavity_)) note_missing_subfacet(t);
 
-    queue_encroached(v, halves);
+    for_each_encroached(
+        tr_, complex_, cavity_, v, halves, made_,
+        [this](std::uint32_t s, Vertex_handle w) { request_subsegment(s, Split_reason::encroached, floor_of(w)); },
+        [this](std::uint32_t t, Vertex_handle w) { request_subfacet(t, Split_reason::encroached, floor_of(w)); });
     const auto& star = cavity_.star();
     for (const Cell_handle c : star) {
       if (keep_fresh_) fresh_cells_.push_back({c, c->generation(), 0});
       if (keep_fresh_ && torn_) unlabelled_cells_.push_back({c, c->generation(), 0});
-    }
-  }
-
-  void queue_encroached(Vertex_handle v, const std::array<std::uint32_t, 2>& halves) {
-    const auto& star = cavity_.star();
-    for (std::size_t k = 0; k < star.size(); ++k) {
-      const Cell_handle c = star[k];
-      const int apex = cavity_.apex(k);
-      const std::uint32_t t = c->subfacet(apex);
-      if (t != Complex::none && encroaches(complex_, complex_.subfacet(t), v))
-        request_subfacet(t, Split_reason::encroached, floor_of(v));
-      if (!c->subsegment_edges()) continue;
-      for (int i = 0; i < 4; ++i)
-        for (int j = i + 1; j < 4; ++j)
-          if (i != apex && j != apex && (c->subsegment_edges() & edge_bit(i, j))) {
-            const std::uint32_t s = complex_.find_subsegment(c->vertex(i), c->vertex(j));
-            if (s != Complex::none && encroaches(complex_, complex_.subsegment(s), v))
-              request_subsegment(s, Split_reason::encroached, floor_of(v));
-          }
-    }
-    for (const std::uint32_t h : halves)
-      if (h != Complex::none && complex_.subsegment(h).present) queue_if_encroached_half(h);
-    for (const std::uint32_t t : made_)
-      if (complex_.subfacet(t).present) queue_if_encroached(t);
-  }
-
-  void queue_if_encroached_half(std::uint32_t h) {
-    const auto& s = complex_.subsegment(h);
-    for (const Cell_handle c : cavity_.star()) {
-      if (!c->has_vertex(s.vertices[0]) || !c->has_vertex(s.vertices[1])) continue;
-      for (int i = 0; i < 4; ++i) {
-        const Vertex_handle w = c->vertex(i);
-        if (!tr_.is_infinite(w) && encroaches(complex_, s, w)) {
-          request_subsegment(h, Split_reason::encroached, floor_of(w));
-          return;
-        }
-      }
-    }
-  }
-
-  void queue_if_encroached(std::uint32_t slot) {
-    for (std::size_t k = 0; k < cavity_.star().size(); ++k) {
-      const Cell_handle c = cavity_.star()[k];
-      for (int i = 0; i < 4; ++i) {
-        const Vertex_handle w = c->vertex(i);
-        if (c->subfacet(i) == slot && !tr_.is_infinite(w) && encroaches(complex_, complex_.subfacet(slot), w)) {
-          request_subfacet(slot, Split_reason::encroached, floor_of(w));
-          return;
-        }
-      }
     }
   }
 
@@ -467,6 +473,7 @@ class Feature_refiner_3 {
   Cavity_features_3<Tr> features_;
   std::vector<Facet_star_3<Tr>> stars_;
   std::vector<std::uint32_t> made_;
+  Facet_images_3<Tr> images_;
   Pool pool_;
   Region_3 region_;
   Region_3 near_;

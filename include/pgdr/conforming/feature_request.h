@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -69,9 +70,12 @@ struct Cell_id_3 {
   bool is_live() const { return cell->generation() == generation; }
 };
 
-/// A split on its way to the leaf that holds the split point, on behalf of a client in the leaf that it comes from.
+/// A split on its way to the leaf that holds the split point, on behalf of a client in the leaf that it comes from. Or
+/// a point to be put on a facet at `home`, since there is one at the like place, `by`, on a facet close by.
 template <class Cell_handle>
 struct Feature_errand_3 {
+  using Vertex_handle = typename std::iterator_traits<Cell_handle>::value_type::Vertex_handle;
+
   Piece_id piece;
   bool is_subsegment = false;
   Split_reason reason = Split_reason::encroached;
@@ -88,6 +92,9 @@ struct Feature_errand_3 {
   Vec_3 home;
   Piece_id obstacle;
   std::vector<Piece_id> refused;
+  Vertex_handle by{};
+  Index facet = 0;
+  bool is_image() const { return by != Vertex_handle(); }
 };
 
 }  // namespace pgdr

@@ -11,6 +11,7 @@
 #include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/encroachment_3.h>
+#include <pgdr/conforming/sheet_walk_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
@@ -60,12 +61,7 @@ class Obstacles_3 {
   /// Whether p's projection onto the facet falls into the subfacet.
   static bool is_below(const Complex& complex, const typename Complex::Subfacet& t, const Point& p) {
     const Vec_3 q = complex.plane(t.facet).project(to_vec(p));
-    const Point foot(q.x, q.y, q.z);
-    for (std::size_t i = 0; i < 3; ++i)
-      if (complex.orientation(t.facet, t.vertices[i]->point(), t.vertices[(i + 1) % 3]->point(), foot) ==
-          CGAL::NEGATIVE)
-        return false;
-    return true;
+    return is_in_subfacet(complex, t, Point(q.x, q.y, q.z));
   }
 
   std::vector<Piece_id> subsegments_;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_ENCROACHED_FEATURES_3_H
+#define PGDR_CONFORMING_ENCROACHED_FEATURES_3_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/encroachment_3.h>
+#include <pgdr/mesh/cavity_3.h>
+
+namespace pgdr {
+
+/// Looks through the star of a vertex v that was just inserted on a feature: calls `subsegment` and `subfacet` with the slot
+/// of each piece that v encroaches, and of each new piece, subsegments `halves` and subfacets `made`, that a vertex
+/// across encroaches; and with the vertex.
+template <class Tr, class On_subsegment, class On_subfacet>
+void for_each_encroached(const Tr& tr, const Constraint_complex_3<Tr>& complex, const Cavity_3<Tr>& cavity,
+                         typename Tr::Vertex_handle v, const std::array<std::uint32_t, 2>& halves,
+                         const std::vector<std::uint32_t>& made, const On_subsegment& subsegment,
+                         const On_subfacet& subfacet) {
+  using Complex = Constraint_complex_3<Tr>;
+  const auto& star = cavity.star();
+  for (std::size_t k = 0; k < star.size(); ++k) {
+    const auto c = star[k];
+    const int apex = cavity.apex(k);
+    const std::uint32_t t = c->subfacet(apex);
+    if (t != Complex::none && encroaches(complex, complex.subfacet(t), v)) subfacet(t, v);
+    if (!c->subsegment_edges()) continue;
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        if (i != apex && j != apex && (c->subsegment_edges() & edge_bit(i, j))) {
+          const std::uint32_t s = complex.find_subsegment(c->vertex(i), c->vertex(j));
+          if (s != Complex::none && encroaches(complex, complex.subsegment(s), v)) subsegment(s, v);
+        }
+  }
+
+  const auto first_across = [&](const auto& piece, const auto& is_at) {
+    for (const auto c : star)
+      for (int i = 0; i < 4; ++i) {
+        const auto w = c->vertex(i);
+        if (is_at(c, i) && !tr.is_infinite(w) && encroaches(complex, piece, w)) return w;
+      }
+    return typename Tr::Vertex_handle();
+  };
+  for (const std::uint32_t h : halves) {
+    if (h == Complex::none || !complex.subsegment(h).present) continue;
+    const auto& s = complex.subsegment(h);
+    const auto w = first_across(
+        s, [&](auto c, int) { return c->has_vertex(s.vertices[0]) && c->has_vertex(s.vertices[1]); });
+    if (w != typename Tr::Vertex_handle()) subsegment(h, w);
+  }
+  for (const std::uint32_t t : made) {
+    if (!complex.subfacet(t).present) continue;
+    const auto w = first_across(complex.subfacet(t), [&](auto c, int i) { return c->subfacet(i) == t; });
+    if (w != typename Tr::Vertex_handle()) subfacet(t, w);
+  }
+}
+
+}  // namespace pgdr
+
+#endif

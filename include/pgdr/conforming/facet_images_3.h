@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_FACET_IMAGES_3_H
+#define PGDR_CONFORMING_FACET_IMAGES_3_H
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <pgdr/conforming/cavity_features_3.h>
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/facet_wedges_3.h>
+#include <pgdr/conforming/feature_request.h>
+#include <pgdr/conforming/sheet_walk_3.h>
+
+namespace pgdr {
+
+/// The mirror images of vertices on facets close by that have yet to be put there.
+template <class Tr>
+class Facet_images_3 {
+ public:
+  using Complex = Constraint_complex_3<Tr>;
+  using Vertex_handle = typename Tr::Vertex_handle;
+  using Point = typename Tr::Point;
+
+  /// A point to be put on a facet for the sake of a vertex on another one.
+  struct Image {
+    Vertex_handle by;
+    Index facet;
+    Vec_3 at;
+  };
+
+  Facet_images_3(const Complex& complex, const Facet_wedges_3& wedges) : complex_(complex), wedges_(wedges) {}
+
+  bool empty() const { return images_.empty(); }
+  void add(const Image& i) { images_.push_back(i); }
+  Image pop() {
+    const Image i = images_.back();
+    images_.pop_back();
+    return i;
+  }
+
+  /// Adds the images of v on facets that are much closer to it than the vertices that it was inserted between.
+  /// `around` are subfacets at v, those of one facet one after the other.
+  void add_of(Vertex_handle v, const std::vector<std::uint32_t>& around) {
+    Index facet = Tr::Vertex::none;
+    for (const std::uint32_t t : around)
+      if (std::exchange(facet, complex_.subfacet(t).facet) != complex_.subfacet(t).facet)
+        wedges_.for_each_image(facet, position(v), 0.5 * v->insertion_radius(), [&](const Mirror_image& i) {
+          if (!complex_.is_on_facet(v, i.facet)) add({v, i.facet, complex_.plane(i.facet).project(i.at)});
+        });
+  }
+
+  /// Keeps track of where each facet is from now on, for images on facets that are torn. Only for one that is alone at work,
+  /// and tells of all subfacets that it makes.
+  void find_facets() {
+    some_subfacet_.assign(complex_.domain().facets.size(), Complex::none);
+    for (std::uint32_t t = 0; t < complex_.subfacet_slots(); ++t)
+      if (complex_.subfacet(t).alive()) some_subfacet_[complex_.subfacet(t).facet] = t;
+  }
+  void note_made(const std::vector<std::uint32_t>& subfacets) {
+    if (some_subfacet_.empty()) return;
+    for (const std::uint32_t t : subfacets) some_subfacet_[complex_.subfacet(t).facet] = t;
+  }
+
+  /// The subfacet that holds an image's point p: one of those on p's cavity, or a missing one that waits. None if there is none.
+  std::uint32_t subfacet_at(const Image& i, const Point& p, const Cavity_features_3<Tr>& cavity,
+                            const Fifo<Feature_request>& waiting) const {
+    const auto holds = [&](std::uint32_t t) {
+      return complex_.subfacet(t).facet == i.facet && is_in_subfacet(complex_, complex_.subfacet(t), p);
+    };
+    for (const auto& f : cavity.subfacets())
+      if (holds(f.slot)) return f.slot;
+    if (!some_subfacet_.empty()) {
+      const Sheet_place at = walk_in_sheet(complex_, some_subfacet_[i.facet], p);
+      return at.subsegment == Complex::none ? at.subfacet : Complex::none;
+    }
+    for (const Feature_request& r : waiting)
+      if (r.reason == Split_reason::missing && complex_.is_live_subfacet(r.piece) && holds(r.piece.slot))
+        return r.piece.slot;
+    return Complex::none;
+  }
+
+ private:
+  const Complex& complex_;
+  const Facet_wedges_3& wedges_;
+  std::vector<Image> images_;
+  std::vector<std::uint32_t> some_subfacet_;  ///< of each facet, where that is known
+};
+
+}  // namespace pgdr
+
+#endif

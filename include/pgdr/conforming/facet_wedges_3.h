@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_FACET_WEDGES_3_H
+#define PGDR_CONFORMING_FACET_WEDGES_3_H
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <pgdr/domain/detail/facet_edges.h>
+#include <pgdr/domain/detail/vector_3.h>
+#include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/vec_3.h>
+
+namespace pgdr {
+
+/// Where a point of a facet comes to lie on another one that meets it at a small dihedral angle, if it is turned about the
+/// segment in which they meet.
+struct Mirror_image {
+  Index facet = 0;  ///< the other one
+  Vec_3 at;         ///< in its plane
+};
+
+/// The pairs of facets that meet at less than `limit` degrees in a segment.
+///
+/// A vertex of one of them may lie in the equatorial ball of a subfacet of the other, however small that is, unless both have
+/// their vertices at like places. Then none does: let q be a vertex at height h over the segment, q' its image, c the
+/// center of the ball at height k, and phi the angle; |q - c|^2 = |q' - c|^2 + 2 h k (1 - cos phi), and |q' - c| is at least
+/// the radius if the subfacet is Delaunay in its facet. (The argument of the collars of A. Rand and N. Walkington, *Collars
+/// and intestines: practical conforming Delaunay refinement*, IMR 2009, here for whatever points there are.)
+class Facet_wedges_3 {
+ public:
+  static constexpr double limit = 30;
+
+  template <class K>
+  explicit Facet_wedges_3(const Domain_3<K>& domain) : of_facet_(domain.facets.size()) {
+    using namespace domain_detail;
+    const Facet_edges edges(domain);
+    for (Index s = 0; s < domain.segments.size(); ++s) {
+      const auto [a, b] = domain.segments[s].vertices;
+      const Vec_3 origin = to_vec(domain.vertices[a]), along = to_vec(domain.vertices[b]) - origin;
+      const auto inward = [&](const Sheet& sheet) {
+        const Vec_3 u = normalized(cross(to_vec(domain.facets[sheet.facet].normal), along));
+        return sheet.forward ? u : -1.0 * u;
+      };
+      for (const Sheet& f : edges.sheets(s))
+        for (const Sheet& g : edges.sheets(s)) {
+          const Vec_3 u = inward(f), v = inward(g);
+          const double angle = angle_deg(u, v);
+          if (f.facet != g.facet && angle < limit)
+            of_facet_[f.facet].push_back(
+                {g.facet, origin, along, u, v, 2 * std::sin(angle * std::numbers::pi / 360)});
+        }
+    }
+  }
+
+  /// Calls `found` with each image of m, a point in the plane of the facet, that is within `distance` of it.
+  template <class Found>
+  void for_each_image(Index facet, const Vec_3& m, double distance, const Found& found) const {
+    for (const Wedge& w : of_facet_[facet]) {
+      const double t = dot(m - w.origin, w.along) / dot(w.along, w.along);
+      if (t <= 0 || t >= 1) continue;
+      const Vec_3 foot = w.origin + t * w.along;
+      const double h = dot(m - foot, w.inward);
+      if (h > 0 && w.chord * h <= distance) found(Mirror_image{w.other, foot + h * w.other_inward});
+    }
+  }
+
+ private:
+  struct Wedge {
+    Index other;
+    Vec_3 origin, along;         ///< the segment: a vertex, and from there to the other one
+    Vec_3 inward, other_inward;  ///< unit vectors from the segment into the two facets
+    double chord;                ///< distance between a point and its image, in units of their height
+  };
+  std::vector<std::vector<Wedge>> of_facet_;
+};
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_TORN_FEATURES_3_H
+#define PGDR_CONFORMING_TORN_FEATURES_3_H
+
+#include <algorithm>
+#include <cstdint>
+
+#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/cavity_features_3.h>
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/split_spacing_3.h>
+
+namespace pgdr {
+
+/// Next to a small angle, edges shorter than this part of the shortest segment there are protected: no piece that is there is
+/// deleted for the sake of quality. Of features that keep deleting each other's pieces, ever closer to their common
+/// vertex, one has to give in.
+inline constexpr double protected_part = 1e-3;
+
+/// Whether a point on a feature, at this distance from the nearest vertex, would delete protected pieces of other features.
+/// `split` is the subsegment that the point splits, or none.
+template <class Tr>
+bool tears_protected(const Constraint_complex_3<Tr>& complex, const Cavity_features_3<Tr>& features,
+                     const Acute_neighborhood_3& acute, double distance, const Feature_id& on, std::uint32_t split) {
+  const double segment = distance / protected_part;
+  const auto is_split = [&](Index facet) {
+    if (on.dimension == 2) return facet == on.index;
+    const auto& sheets = complex.subsegment(split).subfacets;
+    return std::ranges::any_of(sheets, [&](std::uint32_t t) { return complex.subfacet(t).facet == facet; });
+  };
+  const auto is_protected = [&](int dimension, Index torn) {
+    return acute.meet_between_segments_over(segment, on.dimension, on.index, dimension, torn);
+  };
+  return std::ranges::any_of(features.subsegments(),
+                             [&](const auto& f) {
+                               return f.deleted && f.slot != split && is_protected(1, complex.subsegment(f.slot).segment);
+                             }) ||
+         std::ranges::any_of(features.subfacets(), [&](const auto& f) {
+           const Index facet = complex.subfacet(f.slot).facet;
+           return f.deleted && is_protected(2, facet) && !is_split(facet);
+         });
+}
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+
+#include <pgdr/conforming/facet_wedges_3.h>
+#include <pgdr/domain/make_domain_3.h>
+
+#include "catch.h"
+#include "refinement/refined.h"
+#include "seeded_random.h"
+
+using namespace pgdr_test;
+using pgdr::Plc;
+using pgdr::Vec_3;
+
+namespace {
+
+/// A tetrahedron whose first two triangles meet at an angle, in degrees, on the edge from (0, 0, 0) to (0, 0, 1).
+Plc wedge(Random& random, double degrees) {
+  const double phi = degrees * std::numbers::pi / 180;
+  const double r = random.between(0.3, 2), s = random.between(0.3, 2);
+  Plc plc;
+  plc.vertices = {{0, 0, 0},
+                  {0, 0, 1},
+                  {r, 0, random.between(-0.5, 1.5)},
+                  {s * std::cos(phi), s * std::sin(phi), random.between(-0.5, 1.5)}};
+  plc.facets.resize(4);
+  plc.facets[0].polygons = {{0, 1, 2}};
+  plc.facets[1].polygons = {{0, 1, 3}};
+  plc.facets[2].polygons = {{1, 2, 3}};
+  plc.facets[3].polygons = {{2, 0, 3}};
+  return plc;
+}
+
+}  // namespace
+
+TEST_CASE("A mirror image is as high over the segment, and no nearer to a point of the other facet", "[conforming]") {
+  Seeded_random random(1);
+  for (int k = 0; k < 500; ++k) {
+    const double degrees = random.between(0.5, 29.9), phi = degrees * std::numbers::pi / 180;
+    const auto domain = pgdr::make_domain_3(wedge(random, degrees));
+    const pgdr::Facet_wedges_3 wedges(domain);
+    // Facet 0 is in the plane y = 0, facet 1 turned by phi about the z axis.
+    REQUIRE(domain.facets.size() == 4);
+    const double h = random.between(0.01, 2);
+    const Vec_3 q{h, 0, random.between(0.01, 0.99)};
+    const double gap = 2 * h * std::sin(phi / 2);
+    CAPTURE(k, degrees, h);
+    int found = 0;
+    wedges.for_each_image(0, q, gap * 1.0001, [&](const pgdr::Mirror_image& i) {
+      if (i.facet != 1) return;
+      ++found;
+      CHECK(i.at.x == Approx(h * std::cos(phi)));
+      CHECK(i.at.y == Approx(h * std::sin(phi)));
+      CHECK(i.at.z == Approx(q.z));
+      CHECK(pgdr::length(i.at - q) == Approx(gap));
+      // The center of a ball around a subfacet of facet 1.
+      const double height = random.between(0, 2);
+      const Vec_3 c{height * std::cos(phi), height * std::sin(phi), random.between(-1, 2)};
+      CHECK(pgdr::squared_distance(q, c) - pgdr::squared_distance(i.at, c) ==
+            Approx(2 * h * height * (1 - std::cos(phi))).margin(1e-12));
+    });
+    CHECK(found == 1);
+    wedges.for_each_image(0, q, gap * 0.9999, [&](const pgdr::Mirror_image& i) { CHECK(i.facet != 1); });
+    wedges.for_each_image(0, Vec_3{h, 0, 1.5}, 1e9, [&](const pgdr::Mirror_image& i) { CHECK(i.facet != 1); });
+  }
+}
+
+TEST_CASE("Two facets at a small angle, with different other edges, are conformed to", "[conforming]") {
+  Seeded_random random(2);
+  for (const double degrees : {2, 5, 10, 20, 29})
+    for (int k = 0; k < 10; ++k) {
+      CAPTURE(degrees, k);
+      pgdr::Parameters parameters;
+      parameters.max_vertices = 100000;
+      const Mesh mesh = refined(wedge(random, degrees), std::numeric_limits<double>::infinity(), parameters);
+      CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
+      CHECK(mesh.statistics().unrecovered == 0);
+      CHECK(failures(pgdr::check_mesh(pgdr::indexed_mesh_3(mesh), &mesh.domain())) == "");
+    }
+}
