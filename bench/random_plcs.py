@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes small random PLCs that are hard on a mesher, by quality alone, and checks the meshes.
+
+Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only;
+some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the
+numbers of those that did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files.
+
+usage: bench/random_plcs.py [--first N] [--count N] [--kinds KIND,...] [--pgdr PROGRAM] [--limit SECONDS] [--keep FOLDER]
+Needs: cmake --build build/release --target pgdr-app.
+"""
+
+import argparse
+import collections
+import math
+import random
+import subprocess
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from measure import ROOT, table
+
+KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair")
+
+
+def _box(points, facets, half, center=(0, 0, 0)):
+    first = len(points)
+    for i in range(8):
+        points.append(tuple(c + half * (1 if i >> k & 1 else -1) for k, c in enumerate(center)))
+    for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+        facets.append([first + i for i in face])
+
+
+def _angle(rng, low, high):
+    """Between low and high degrees, small ones as often as large ones; in radians."""
+    return math.radians(low * (high / low) ** rng.random())
+
+
+def _wedge(rng, points, facets):
+    """A prism over a triangle with a small angle, its ends slanted."""
+    phi = _angle(rng, 0.5, 90)
+    a, b, height = rng.uniform(0.5, 2), rng.uniform(0.5, 2), rng.uniform(0.3, 3)
+    for end in (0, height):
+        for x, y in ((0, 0), (a, 0), (b * math.cos(phi), b * math.sin(phi))):
+            points.append((x, y, end + rng.uniform(-0.1, 0.1) * height))
+    facets += [[0, 1, 2], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]]
+
+
+def _fan(rng, points, facets):
+    """Two to eight facets on one edge, inside a box."""
+    count = rng.randint(2, 8)
+    gap = _angle(rng, 0.5, 40)
+    points += [(0, 0, -0.4), (0, 0, rng.uniform(0.1, 0.5))]
+    angle = 0
+    for _ in range(count):
+        x, y = math.cos(angle), math.sin(angle)
+        first = len(points)
+        r = rng.uniform(0.2, 0.8)
+        points.append((r * x, r * y, rng.uniform(-0.6, 0.6)))
+        if rng.random() < 0.5:
+            facets.append([0, 1, first])
+        else:
+            points[first] = (r * x, r * y, rng.uniform(-0.6, -0.1))
+            s = rng.uniform(0.2, 0.8)
+            points.append((s * x, s * y, rng.uniform(0, 0.6)))
+            facets.append([0, first, first + 1, 1])
+        angle += gap * rng.uniform(1, 1.5)
+        if angle > math.radians(340):
+            break
+    _box(points, facets, 1)
+
+
+def _needle(rng, points, facets):
+    """A tetrahedron with corners of fractions of a degree."""
+    phi = _angle(rng, 0.1, 20)
+    length = rng.uniform(0.5, 2)
+    points += [(0, 0, 0), (length, 0, 0), (rng.uniform(0.3, 1) * length, length * math.tan(phi), 0),
+               (rng.uniform(0.2, 1) * length, rng.uniform(-1, 1) * length * math.tan(_angle(rng, 0.5, 30)),
+                length * math.tan(_angle(rng, 1, 60)))]
+    facets += [[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+
+
+def _slit(rng, points, facets):
+    """Two facets with a narrow gap between them, inside a box; not quite parallel."""
+    gap = 10 ** rng.uniform(-1.5, -0.5)
+    tilt = rng.uniform(0, 0.5) * gap
+    for z in (0, gap):
+        first = len(points)
+        dx, dy = rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2)
+        for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)):
+            points.append((x + dx, y + dy, z + (tilt * x if z else 0)))
+        facets.append([first, first + 1, first + 2, first + 3])
+    _box(points, facets, 1)
+
+
+def _spike(rng, points, facets):
+    """A pyramid with a tip of a few degrees, alone or on the floor of a box."""
+    sides = rng.randint(3, 10)
+    radius = math.tan(_angle(rng, 1, 30))
+    points.append((rng.uniform(-0.3, 0.3) * radius, rng.uniform(-0.3, 0.3) * radius, 1))
+    for i in range(sides):
+        turn = 2 * math.pi * (i + rng.uniform(0, 0.5)) / sides
+        points.append((radius * math.cos(turn), radius * math.sin(turn), 0))
+    for i in range(sides):
+        facets.append([0, 1 + i, 1 + (i + 1) % sides])
+    facets.append(list(range(1, sides + 1)))
+    if rng.random() < 0.5:
+        _box(points, facets, 1.5)
+
+
+def _star(rng, points, facets):
+    """A polyhedron like a crumpled icosahedron in a box."""
+    golden = (1 + math.sqrt(5)) / 2
+    corners = [(s, t * golden, 0) for s in (-1, 1) for t in (-1, 1)]
+    corners = [c[k:] + c[:k] for k in range(3) for c in corners]
+    for c in corners:
+        r = 10 ** rng.uniform(-1, 0) / math.sqrt(1 + golden * golden)
+        points.append(tuple(r * x for x in c))
+    for i in range(12):
+        for j in range(i + 1, 12):
+            for k in range(j + 1, 12):
+                if all(abs(math.dist(corners[a], corners[b]) - 2) < 1e-9 for a, b in ((i, j), (j, k), (i, k))):
+                    facets.append([i, j, k])
+    _box(points, facets, 1.2)
+
+
+def _pair(rng, points, facets):
+    """Two triangles that meet in one vertex, one close above the other, in a box."""
+    phi = _angle(rng, 0.5, 30)
+    points.append((0, 0, 0))
+    for k in range(2):
+        first = len(points)
+        turn = rng.uniform(-0.5, 0.5)
+        for offset in (turn, turn + rng.uniform(0.3, 2)):
+            r = rng.uniform(0.2, 0.8)
+            points.append((r * math.cos(offset), r * math.sin(offset), k * r * math.tan(phi)))
+        facets.append([0, first, first + 1])
+    _box(points, facets, 1)
+
+
+def _rotation(rng):
+    """A uniform rotation, from a random unit quaternion."""
+    q = [rng.gauss(0, 1) for _ in range(4)]
+    n = math.sqrt(sum(x * x for x in q))
+    w, x, y, z = (c / n for c in q)
+    return ((1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
+            (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
+            (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)))
+
+
+def plc(seed):
+    """(kind, text) of the PLC with this number."""
+    rng = random.Random(seed)
+    kind = KINDS[seed % len(KINDS)]
+    points, facets = [], []
+    globals()["_" + kind](rng, points, facets)
+    m = _rotation(rng) if rng.random() < 0.7 else ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    scale = 10 ** rng.uniform(-6, 6) if rng.random() < 0.5 else 1
+    shift = [rng.uniform(-10, 10) if rng.random() < 0.5 else 0 for _ in range(3)]
+    moved = [[scale * (sum(m[i][j] * p[j] for j in range(3)) + shift[i]) for i in range(3)] for p in points]
+    lines = [f"{len(points)} 3 0 0"]
+    lines += [f"{i} " + " ".join(repr(x) for x in p) for i, p in enumerate(moved)]
+    lines.append(f"{len(facets)} 0")
+    for f in facets:
+        lines += ["1", f"{len(f)} " + " ".join(map(str, f))]
+    lines += ["0", "0"]
+    return kind, "\n".join(lines) + "\n"
+
+
+def failure(pgdr, text, limit, folder):
+    """What is wrong with the mesh of a PLC, or nothing."""
+    source, mesh = folder / "input.poly", folder / "output.mesh"
+    source.write_text(text)
+    try:
+        run = subprocess.run([pgdr, "mesh", source, "-o", mesh, "--quiet", "--threads", "1", "--radius-edge-ratio", "2"],
+                             capture_output=True, text=True, timeout=limit)
+    except subprocess.TimeoutExpired:
+        return "no end"
+    if run.returncode:
+        return run.stderr.strip() or f"exit code {run.returncode}"
+    run = subprocess.run([pgdr, "check", mesh, "--plc", source], capture_output=True, text=True, timeout=600)
+    return "" if run.returncode == 0 else next(line for line in run.stdout.splitlines() if not line.startswith("ok"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--count", type=int, default=700)
+    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--pgdr", type=Path, default=ROOT / "build/release/pgdr")
+    parser.add_argument("--limit", type=float, default=20)
+    parser.add_argument("--keep", type=Path)
+    args = parser.parse_args()
+    kinds = args.kinds.split(",")
+
+    def one(seed):
+        kind, text = plc(seed)
+        with tempfile.TemporaryDirectory() as folder:
+            return seed, kind, text, failure(args.pgdr, text, args.limit, Path(folder))
+
+    seeds = [s for s in range(args.first, args.first + args.count) if KINDS[s % len(KINDS)] in kinds]
+    count, failed = collections.Counter(), collections.Counter()
+    with ThreadPoolExecutor(2) as pool:
+        for seed, kind, text, wrong in pool.map(one, seeds):
+            count[kind] += 1
+            if not wrong:
+                continue
+            failed[kind] += 1
+            print(f"{kind} {seed}: {wrong[:150]}", flush=True)
+            if args.keep:
+                args.keep.mkdir(parents=True, exist_ok=True)
+                (args.keep / f"{kind}_{seed}.poly").write_text(text)
+    print()
+    print(table(["kind", "meshed and checked", "of"], [[k, count[k] - failed[k], count[k]] for k in kinds]))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
