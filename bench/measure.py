@@ -41,6 +41,16 @@ def timed(command, folder=None):
     return Run(seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024)
 
 
+def attempt(command, limit, folder):
+    """Exit code (None: out of time), seconds and output of a command that may fail or not end."""
+    begin = time.perf_counter()
+    try:
+        done = subprocess.run([str(c) for c in command], cwd=folder, timeout=limit, capture_output=True, text=True)
+    except subprocess.TimeoutExpired:
+        return None, limit, ""
+    return done.returncode, time.perf_counter() - begin, done.stdout + done.stderr
+
+
 def median(values):
     return statistics.median(values)
 

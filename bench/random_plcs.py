@@ -14,20 +14,19 @@ import argparse
 import collections
 import math
 import random
-import subprocess
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from measure import ROOT, table
+from measure import ROOT, attempt, table
 
 KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair")
 
 
-def _box(points, facets, half, center=(0, 0, 0)):
+def _box(points, facets, half):
     first = len(points)
     for i in range(8):
-        points.append(tuple(c + half * (1 if i >> k & 1 else -1) for k, c in enumerate(center)))
+        points.append(tuple(half * (1 if i >> k & 1 else -1) for k in range(3)))
     for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
         facets.append([first + i for i in face])
 
@@ -95,7 +94,7 @@ def _slit(rng, points, facets):
 
 
 def _spike(rng, points, facets):
-    """A pyramid with a tip of a few degrees, alone or on the floor of a box."""
+    """A pyramid with a tip of a few degrees, alone or inside a box."""
     sides = rng.randint(3, 10)
     radius = math.tan(_angle(rng, 1, 30))
     points.append((rng.uniform(-0.3, 0.3) * radius, rng.uniform(-0.3, 0.3) * radius, 1))
@@ -172,15 +171,11 @@ def failure(pgdr, text, limit, folder):
     """What is wrong with the mesh of a PLC, or nothing."""
     source, mesh = folder / "input.poly", folder / "output.mesh"
     source.write_text(text)
-    try:
-        run = subprocess.run([pgdr, "mesh", source, "-o", mesh, "--quiet", "--threads", "1", "--radius-edge-ratio", "2"],
-                             capture_output=True, text=True, timeout=limit)
-    except subprocess.TimeoutExpired:
-        return "no end"
-    if run.returncode:
-        return run.stderr.strip() or f"exit code {run.returncode}"
-    run = subprocess.run([pgdr, "check", mesh, "--plc", source], capture_output=True, text=True, timeout=600)
-    return "" if run.returncode == 0 else next(line for line in run.stdout.splitlines() if not line.startswith("ok"))
+    code, _, text = attempt([pgdr, "mesh", source, "-o", mesh, "--quiet", "--threads", 1, "--radius-edge-ratio", 2], limit, folder)
+    if code != 0:
+        return "no end" if code is None else text.strip() or f"exit code {code}"
+    code, _, text = attempt([pgdr, "check", mesh, "--plc", source], 600, folder)
+    return "" if code == 0 else next((line for line in text.splitlines() if not line.startswith("ok")), "no end of the check")
 
 
 def main():
@@ -188,7 +183,7 @@ def main():
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=700)
     parser.add_argument("--kinds", default=",".join(KINDS))
-    parser.add_argument("--pgdr", type=Path, default=ROOT / "build/release/pgdr")
+    parser.add_argument("--pgdr", type=lambda p: Path(p).resolve(), default=ROOT / "build" / "release" / "pgdr")
     parser.add_argument("--limit", type=float, default=20)
     parser.add_argument("--keep", type=Path)
     args = parser.parse_args()

@@ -19,11 +19,10 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 from typing import NamedTuple
 
-from measure import ROOT, median, note, table
+from measure import ROOT, attempt, median, note, table
 
 BOUND = 2.0
 
@@ -35,26 +34,16 @@ class Result(NamedTuple):
     remark: str
 
 
-def run(command, limit, folder):
-    """Exit code (None: out of time), seconds and what it printed."""
-    begin = time.perf_counter()
-    try:
-        done = subprocess.run([str(c) for c in command], cwd=folder, timeout=limit, capture_output=True, text=True)
-    except subprocess.TimeoutExpired:
-        return None, limit, ""
-    return done.returncode, time.perf_counter() - begin, done.stdout + done.stderr
-
-
 def ours(pgdr, model, limit, threads, folder):
     stats = folder / "stats.json"
-    code, seconds, text = run([pgdr, "mesh", model, "--radius-edge-ratio", BOUND, "--ignore-region-sizes", "--threads",
+    code, seconds, text = attempt([pgdr, "mesh", model, "--radius-edge-ratio", BOUND, "--ignore-region-sizes", "--threads",
                                threads, "--quiet", "--stats", stats, "-o", folder / "out.mesh"], limit, folder)
     if code is None:
         return Result(0, 0, seconds, "no end")
     if code != 0:
         return Result(0, 0, seconds, f"exit code {code}: {text.strip().splitlines()[-1] if text.strip() else ''}")
     numbers = json.loads(stats.read_text(encoding="utf-8"))
-    code, _, _ = run([pgdr, "check", folder / "out.mesh", "--plc", model], limit, folder)
+    code, _, _ = attempt([pgdr, "check", folder / "out.mesh", "--plc", model], limit, folder)
     return Result(numbers["tetrahedra"], numbers["exempt_tetrahedra"], seconds, "" if code == 0 else "check fails")
 
 
@@ -81,7 +70,7 @@ def rows_of(path):
 
 
 def tetgens(tetgen, plc, limit, folder):
-    code, seconds, text = run([tetgen, "-pMQq2.0/0", plc], limit, folder)
+    code, seconds, text = attempt([tetgen, "-pMQq2.0/0", plc], limit, folder)
     name = str(plc)[: -len(".poly")] + ".1"
     if code is None:
         return Result(0, 0, seconds, "no end")
@@ -98,7 +87,7 @@ def tetgens(tetgen, plc, limit, folder):
 
 def corners(pgdr, model, plc, folder):
     """Writes the PLC as understood; plane corners below 14.48 degrees and the smallest angles."""
-    _, _, text = run([pgdr, "info", model, "--write-plc", plc], 600, folder)
+    _, _, text = attempt([pgdr, "info", model, "--write-plc", plc], 600, folder)
     def number(label):
         found = re.search(label + r"\s+([\d.,]+)", text)
         return float(found.group(1).replace(",", "").rstrip(".")) if found else 0.0
