@@ -4,7 +4,8 @@
 
 Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only;
 some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the
-numbers of those that did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files.
+numbers of those that did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that
+the failure does not need.
 
 usage: bench/random_plcs.py [--first N] [--count N] [--kinds KIND,...] [--pgdr PROGRAM] [--limit SECONDS] [--keep FOLDER]
 Needs: cmake --build build/release --target pgdr-app.
@@ -149,7 +150,7 @@ def _rotation(rng):
 
 
 def plc(seed):
-    """(kind, text) of the PLC with this number."""
+    """(kind, points, facets) of the PLC with this number."""
     rng = random.Random(seed)
     kind = KINDS[seed % len(KINDS)]
     points, facets = [], []
@@ -158,13 +159,18 @@ def plc(seed):
     scale = 10 ** rng.uniform(-6, 6) if rng.random() < 0.5 else 1
     shift = [rng.uniform(-10, 10) if rng.random() < 0.5 else 0 for _ in range(3)]
     moved = [[scale * (sum(m[i][j] * p[j] for j in range(3)) + shift[i]) for i in range(3)] for p in points]
-    lines = [f"{len(points)} 3 0 0"]
-    lines += [f"{i} " + " ".join(repr(x) for x in p) for i, p in enumerate(moved)]
+    return kind, moved, facets
+
+
+def as_poly(points, facets):
+    """The text of a .poly file, without the points that no facet uses."""
+    used = sorted({i for f in facets for i in f})
+    lines = [f"{len(used)} 3 0 0"]
+    lines += [f"{k} " + " ".join(repr(x) for x in points[i]) for k, i in enumerate(used)]
     lines.append(f"{len(facets)} 0")
     for f in facets:
-        lines += ["1", f"{len(f)} " + " ".join(map(str, f))]
-    lines += ["0", "0"]
-    return kind, "\n".join(lines) + "\n"
+        lines += ["1", f"{len(f)} " + " ".join(str(used.index(i)) for i in f)]
+    return "\n".join(lines + ["0", "0"]) + "\n"
 
 
 def failure(pgdr, text, limit, folder):
@@ -176,6 +182,17 @@ def failure(pgdr, text, limit, folder):
         return "no end" if code is None else text.strip() or f"exit code {code}"
     code, _, text = attempt([pgdr, "check", mesh, "--plc", source], 600, folder)
     return "" if code == 0 else next((line for line in text.splitlines() if not line.startswith("ok")), "no end of the check")
+
+
+def minimised(pgdr, points, facets, limit, folder):
+    """The facets without those that a failure does not need; without these the PLC has to be valid, too."""
+    for f in list(facets):
+        fewer = [g for g in facets if g is not f]
+        text = as_poly(points, fewer)
+        (folder / "fewer.poly").write_text(text)
+        if attempt([pgdr, "info", folder / "fewer.poly"], limit, folder)[0] == 0 and failure(pgdr, text, limit, folder):
+            facets = fewer
+    return facets
 
 
 def main():
@@ -190,9 +207,12 @@ def main():
     kinds = args.kinds.split(",")
 
     def one(seed):
-        kind, text = plc(seed)
+        kind, points, facets = plc(seed)
         with tempfile.TemporaryDirectory() as folder:
-            return seed, kind, text, failure(args.pgdr, text, args.limit, Path(folder))
+            wrong = failure(args.pgdr, as_poly(points, facets), args.limit, Path(folder))
+            if wrong and args.keep:
+                facets = minimised(args.pgdr, points, facets, args.limit, Path(folder))
+            return seed, kind, as_poly(points, facets), wrong
 
     seeds = [s for s in range(args.first, args.first + args.count) if KINDS[s % len(KINDS)] in kinds]
     count, failed = collections.Counter(), collections.Counter()

@@ -80,16 +80,20 @@ std::unique_ptr<Sharp_classes> sharp_features(const Epick_domain& domain, const 
   return classes;
 }
 
-/// Short edges that a small angle explains: between points of two segments or facets that meet in it, no closer to each
-/// other than half of what the angle makes them.
+/// What small angles explain: short edges between points of two segments or facets that meet in one, no closer to each other
+/// than half of what the angle makes them; and all that is next to one.
 class Explained_edges {
  public:
   Explained_edges(const Epick_domain& domain, const Small_angles& angles) : domain_(domain), angles_(angles) {
+    shortest_at_.assign(domain.vertices.size(), std::numeric_limits<double>::infinity());
     tolerance_ = std::max(domain.tolerance, 1e-9 * domain.diagonal);
     for (std::size_t s = 0; s < domain.segments.size(); ++s) {
       const auto& ends = domain.segments[s].vertices;
       segment_items_.push_back(
           {Plain::Segment_3(plain(domain, ends[0]), plain(domain, ends[1])), std::uint32_t(s)});
+      const double length = std::sqrt(segment_items_.back().shape.squared_length());
+      longest_ = std::max(longest_, length);
+      for (const Index v : ends) shortest_at_[v] = std::min(shortest_at_[v], length);
     }
     for (std::size_t f = 0; f < domain.facets.size(); ++f)
       for (const auto& t : domain.facets[f].triangles)
@@ -98,6 +102,27 @@ class Explained_edges {
              std::uint32_t(f)});
     segments_.emplace(segment_items_.begin(), segment_items_.end());
     triangles_.emplace(triangle_items_.begin(), triangle_items_.end());
+  }
+
+  /// Whether p is within `reach` of what is protected around a small angle: pieces whose split point is within a thousandth of
+  /// the length of the segment that it is at, or of the shortest segment at its vertex. They reach up to three times as far.
+  bool protects(const P& p, double reach) const {
+    const Plain::Point_3 at(p[0], p[1], p[2]);
+    const double r = reach + protected_part * longest_;
+    std::vector<const Tagged<Plain::Segment_3>*> near;
+    segments_->all_intersected_primitives(box_around(p, r), std::back_inserter(near));
+    const auto is_near = [&](double degrees, double squared_distance, double length) {
+      return degrees < class_bounds_deg.back() && std::sqrt(squared_distance) <= reach + protected_part * length;
+    };
+    return std::ranges::any_of(near, [&](const auto* s) {
+      const auto& segment = s->shape;
+      if (is_near(angles_.segment_deg[s->tag], CGAL::squared_distance(at, segment), std::sqrt(segment.squared_length())))
+        return true;
+      const auto& ends = domain_.segments[s->tag].vertices;
+      return std::ranges::any_of(ends, [&](Index v) {
+        return is_near(angles_.vertex_deg[v], CGAL::squared_distance(at, plain(domain_, v)), shortest_at_[v]);
+      });
+    });
   }
 
   bool contains(const P& p, const P& q) const {
@@ -114,9 +139,12 @@ class Explained_edges {
     std::uint32_t index;
   };
 
+  static CGAL::Bbox_3 box_around(const P& p, double r) {
+    return {p[0] - r, p[1] - r, p[2] - r, p[0] + r, p[1] + r, p[2] + r};
+  }
+
   std::vector<Feature> features_at(const P& p) const {
-    const CGAL::Bbox_3 box(p[0] - tolerance_, p[1] - tolerance_, p[2] - tolerance_, p[0] + tolerance_,
-                           p[1] + tolerance_, p[2] + tolerance_);
+    const CGAL::Bbox_3 box = box_around(p, tolerance_);
     std::vector<Feature> result;
     std::vector<const Tagged<Plain::Segment_3>*> on_segments;
     segments_->all_intersected_primitives(box, std::back_inserter(on_segments));
@@ -168,7 +196,10 @@ class Explained_edges {
 
   const Epick_domain& domain_;
   const Small_angles& angles_;
+  static constexpr double protected_part = 3 * 1e-3;
   double tolerance_ = 0;
+  double longest_ = 0;
+  std::vector<double> shortest_at_;
   std::vector<Tagged<Plain::Segment_3>> segment_items_;
   std::vector<Tagged<Plain::Triangle_3>> triangle_items_;
   std::optional<Aabb_tree<Plain::Segment_3>> segments_;
@@ -246,7 +277,8 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
     }
     if (domain != nullptr && !explained) explained.emplace(*domain, *angles);
     const auto [p, q] = shortest_edge({a, b, c, d});
-    if (explained && explained->contains(p, q))
+    const auto is_protected = [&, reach = 4 * std::sqrt(rr)](const P& corner) { return explained->protects(corner, reach); };
+    if (explained && (explained->contains(p, q) || std::ranges::any_of(std::array{a, b, c, d}, is_protected)))
       ++between;
     else
       failures.add("tetrahedron ", i, " has ratio ", std::sqrt(rr / ll), " and no small angle nearby");

@@ -47,7 +47,7 @@ TEST_CASE("A mirror image is as high over the segment, and no nearer to a point 
     const double gap = 2 * h * std::sin(phi / 2);
     CAPTURE(k, degrees, h);
     int found = 0;
-    wedges.for_each_image(0, q, gap * 1.0001, [&](const pgdr::Mirror_image& i) {
+    wedges.for_each_image(0, q, gap * 1.0001, true, [&](const pgdr::Mirror_image& i) {
       if (i.facet != 1) return;
       ++found;
       CHECK(i.at.x == Approx(h * std::cos(phi)));
@@ -61,8 +61,9 @@ TEST_CASE("A mirror image is as high over the segment, and no nearer to a point 
             Approx(2 * h * height * (1 - std::cos(phi))).margin(1e-12));
     });
     CHECK(found == 1);
-    wedges.for_each_image(0, q, gap * 0.9999, [&](const pgdr::Mirror_image& i) { CHECK(i.facet != 1); });
-    wedges.for_each_image(0, Vec_3{h, 0, 1.5}, 1e9, [&](const pgdr::Mirror_image& i) { CHECK(i.facet != 1); });
+    const auto is_other = [&](const pgdr::Mirror_image& i) { CHECK(i.facet != 1); };
+    wedges.for_each_image(0, q, gap * 0.9999, true, is_other);
+    wedges.for_each_image(0, Vec_3{-h, 0, 0.5}, 1e9, true, is_other);
   }
 }
 

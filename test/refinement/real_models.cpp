@@ -56,9 +56,10 @@ TEST_CASE("A bunny is meshed", "[models]") {
 }
 
 TEST_CASE("Needles are meshed", "[models]") {
-  const auto anchor = checked("a04_anchor.off", 1250);
+  // Twice and a bit of what that program leaves, at half the number of tetrahedra that keeping the bound would take.
+  const auto anchor = checked("a04_anchor.off", 3000);
   if (!anchor) PGDR_SKIP("the real models are not here");
-  CHECK(anchor->tetrahedra.size() < 8 * 21384);  // TetGen's number
+  CHECK(anchor->tetrahedra.size() < 4 * 21384);  // TetGen's number
   if (!checked("a12_triceratops.off", 1791)) PGDR_SKIP("the real models are not here");
 }
 

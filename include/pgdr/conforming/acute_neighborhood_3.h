@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <CGAL/AABB_tree.h>
@@ -23,6 +24,7 @@
 #endif
 
 #include <pgdr/conforming/facet_wedges_3.h>
+#include <pgdr/conforming/protected_balls_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
@@ -63,6 +65,7 @@ class Acute_neighborhood_3 {
     for (Index s = 0; s < domain.segments.size(); ++s)
       if (angles.segment_deg[s] < limit)
         segments_.emplace_back(point(domain.segments[s].vertices[0]), point(domain.segments[s].vertices[1]));
+    balls_.emplace(domain, is_acute_vertex_);
     segment_tree_.rebuild(segments_.begin(), segments_.end());
     if (!segments_.empty()) segment_tree_.build();
     if (vertices_.size() > 0) vertices_.build();
@@ -74,6 +77,7 @@ class Acute_neighborhood_3 {
   bool is_acute_vertex(Index v) const { return is_acute_vertex_[v]; }
 
   const Facet_wedges_3& wedges() const { return wedges_; }
+  const Protected_balls_3& balls() const { return *balls_; }
 
   /// Whether p is within `distance` of such a vertex or segment.
   bool contains(const Vec_3& p, double distance) const {
@@ -101,12 +105,13 @@ class Acute_neighborhood_3 {
     });
   }
 
-  /// Whether two features meet at a small angle between segments all of which are longer than `length`.
-  bool meet_between_segments_over(double length, int p_dimension, Index p_feature, int q_dimension,
-                                  Index q_feature) const {
+  /// Whether two features meet at a small angle so near to m that it is protected there: within `Protected_balls_3::part` of
+  /// the shortest segment of the vertex, or of the length of the segment, that they meet in.
+  bool protects(const Vec_3& m, int p_dimension, Index p_feature, int q_dimension, Index q_feature) const {
     const auto& b = angles_at(q_dimension, q_feature);
     return std::ranges::any_of(angles_at(p_dimension, p_feature), [&](Place place) {
-      return shortest_segment(place) > length && std::ranges::binary_search(b, place);
+      const double radius = Protected_balls_3::part * shortest_segment(place);
+      return squared_distance_to(place, m) < radius * radius && std::ranges::binary_search(b, place);
     });
   }
 
@@ -158,23 +163,23 @@ class Acute_neighborhood_3 {
     return place & segment_bit ? length(position_[ends_[i][1]] - position_[ends_[i][0]]) : shortest_at_[i];
   }
 
+  double squared_distance_to(Place place, const Vec_3& p) const {
+    const auto i = static_cast<Index>(place & ~segment_bit);
+    if (!(place & segment_bit)) return squared_distance(p, position_[i]);
+    const auto point = [](const Vec_3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
+    return CGAL::squared_distance(point(p),
+                                  Kernel::Segment_3(point(position_[ends_[i][0]]), point(position_[ends_[i][1]])));
+  }
+
   /// How close two features that meet in a small angle are at p at least: half of the distance that the angle makes.
   double squared_gap(Place place, const Vec_3& p) const {
-    const bool segment = place & segment_bit;
     const auto i = static_cast<Index>(place & ~segment_bit);
-    const double angle = segment ? segment_angle_[i] : vertex_angle_[i];
-    double d2 = 0;
-    if (segment) {
-      const Vec_3 a = position_[ends_[i][0]], u = position_[ends_[i][1]] - a;
-      const double t = std::clamp(dot(p - a, u) / dot(u, u), 0.0, 1.0);
-      d2 = squared_distance(p, a + t * u);
-    } else {
-      d2 = squared_distance(p, position_[i]);
-    }
-    return 0.25 * angle * angle * d2;
+    const double angle = place & segment_bit ? segment_angle_[i] : vertex_angle_[i];
+    return 0.25 * angle * angle * squared_distance_to(place, p);
   }
 
   Facet_wedges_3 wedges_;
+  std::optional<Protected_balls_3> balls_;
   std::vector<bool> is_acute_vertex_;
   std::vector<std::vector<Place>> at_segment_, at_facet_;  ///< the small angles there, ascending
   std::vector<std::vector<Index>> segments_of_facet_;

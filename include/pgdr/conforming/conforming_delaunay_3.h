@@ -25,7 +25,7 @@ void queue_if_encroached_subsegment(const Tr& tr, Feature_refiner_3<Tr>& refiner
     for (int k = 0; k < 4; ++k) {
       const auto v = around->vertex(k);
       if (tr.is_infinite(v) || !encroaches(refiner.complex(), s, v)) continue;
-      refiner.request_subsegment(slot, Split_reason::encroached, refiner.floor_of(v));
+      refiner.note_encroached_subsegment(slot, v);
       return;
     }
   } while (++around != done);
@@ -41,7 +41,7 @@ void queue_if_encroached_subfacet(const Tr& tr, Feature_refiner_3<Tr>& refiner, 
   const int m = 6 - i - j - k;
   for (const auto v : {c->vertex(m), tr.mirror_vertex(c, m)})
     if (!tr.is_infinite(v) && encroaches(refiner.complex(), t, v)) {
-      refiner.request_subfacet(slot, Split_reason::encroached, refiner.floor_of(v));
+      refiner.note_encroached_subfacet(slot, v);
       return;
     }
 }

@@ -27,6 +27,8 @@ class Facet_images_3 {
     Vertex_handle by;
     Index facet;
     Vec_3 at;
+    bool is_usual;  ///< not for the sake of a missing piece, see `Facet_wedges_3`
+    int tries = 0;  ///< of putting it there
   };
 
   Facet_images_3(const Complex& complex, const Facet_wedges_3& wedges) : complex_(complex), wedges_(wedges) {}
@@ -41,12 +43,13 @@ class Facet_images_3 {
 
   /// Adds the images of v on facets that are much closer to it than the vertices that it was inserted between.
   /// `around` are subfacets at v, those of one facet one after the other.
-  void add_of(Vertex_handle v, const std::vector<std::uint32_t>& around) {
+  void add_of(Vertex_handle v, const std::vector<std::uint32_t>& around, bool is_usual) {
     Index facet = Tr::Vertex::none;
+    const double distance = (is_usual ? 0.5 : 1) * v->insertion_radius();
     for (const std::uint32_t t : around)
       if (std::exchange(facet, complex_.subfacet(t).facet) != complex_.subfacet(t).facet)
-        wedges_.for_each_image(facet, position(v), 0.5 * v->insertion_radius(), [&](const Mirror_image& i) {
-          if (!complex_.is_on_facet(v, i.facet)) add({v, i.facet, complex_.plane(i.facet).project(i.at)});
+        wedges_.for_each_image(facet, position(v), distance, is_usual, [&](const Mirror_image& i) {
+          if (!complex_.is_on_facet(v, i.facet)) add({v, i.facet, complex_.plane(i.facet).project(i.at), is_usual});
         });
   }
 

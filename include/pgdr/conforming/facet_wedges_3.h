@@ -29,7 +29,10 @@ struct Mirror_image {
 /// and intestines: practical conforming Delaunay refinement*, IMR 2009, here for whatever points there are.)
 class Facet_wedges_3 {
  public:
-  static constexpr double limit = 30;
+  static constexpr double limit = 60;
+  /// Up to this angle images pay for every point. Between wider facets each is one more point where refinement would do with
+  /// none; but what is missing may keep coming back without.
+  static constexpr double usual_limit = 30;
 
   template <class K>
   explicit Facet_wedges_3(const Domain_3<K>& domain) : of_facet_(domain.facets.size()) {
@@ -48,17 +51,18 @@ class Facet_wedges_3 {
           const double angle = angle_deg(u, v);
           if (f.facet != g.facet && angle < limit)
             of_facet_[f.facet].push_back(
-                {g.facet, origin, along, u, v, 2 * std::sin(angle * std::numbers::pi / 360)});
+                {g.facet, origin, along, u, v, 2 * std::sin(angle * std::numbers::pi / 360), angle < usual_limit});
         }
     }
   }
 
-  /// Calls `found` with each image of m, a point in the plane of the facet, that is within `distance` of it.
+  /// Calls `found` with each image of m, a point in the plane of the facet, that is within `distance` of it. Images may be next
+  /// to the other facet instead of on it. `is_usual`: only where the facets meet at less than `usual_limit`.
   template <class Found>
-  void for_each_image(Index facet, const Vec_3& m, double distance, const Found& found) const {
+  void for_each_image(Index facet, const Vec_3& m, double distance, bool is_usual, const Found& found) const {
     for (const Wedge& w : of_facet_[facet]) {
+      if (is_usual && !w.is_usual) continue;
       const double t = dot(m - w.origin, w.along) / dot(w.along, w.along);
-      if (t <= 0 || t >= 1) continue;
       const Vec_3 foot = w.origin + t * w.along;
       const double h = dot(m - foot, w.inward);
       if (h > 0 && w.chord * h <= distance) found(Mirror_image{w.other, foot + h * w.other_inward});
@@ -71,6 +75,7 @@ class Facet_wedges_3 {
     Vec_3 origin, along;         ///< the segment: a vertex, and from there to the other one
     Vec_3 inward, other_inward;  ///< unit vectors from the segment into the two facets
     double chord;                ///< distance between a point and its image, in units of their height
+    bool is_usual;
   };
   std::vector<std::vector<Wedge>> of_facet_;
 };

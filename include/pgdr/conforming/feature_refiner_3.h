@@ -18,7 +18,7 @@
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/presence_3.h>
 #include <pgdr/conforming/sheet_walk_3.h>
-#include <pgdr/conforming/split_point_3.h>
+#include <pgdr/conforming/split_points_3.h>
 #include <pgdr/conforming/split_spacing_3.h>
 #include <pgdr/conforming/torn_features_3.h>
 #include <pgdr/domain/region_3.h>
@@ -49,7 +49,8 @@ class Feature_refiner_3 {
   using Errand = Feature_errand_3<Cell_handle>;
 
   Feature_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
-      : tr_(tr), complex_(complex), acute_(acute), spacing_(acute, min_edge_length), cavity_(tr), images_(complex, acute.wedges()) {}
+      : tr_(tr), complex_(complex), acute_(acute), split_points_(complex, acute), spacing_(acute, min_edge_length),
+        cavity_(tr), images_(complex, acute.wedges()) {}
 
   /// The cavity that this refiner works with, shared with whoever inserts volume points on the same thread.
   Cavity_3<Tr>& cavity() { return cavity_; }
@@ -59,11 +60,18 @@ class Feature_refiner_3 {
 
   Pool& pool() { return pool_; }
 
-  void request_subsegment(std::uint32_t s, Split_reason reason, double floor) {
-    queues_.subsegments.push({complex_.subsegment_id(s), reason, floor});
+  void request_subfacet(std::uint32_t t, Split_reason reason) {
+    queues_.subfacets.push({complex_.subfacet_id(t), reason});
   }
-  void request_subfacet(std::uint32_t t, Split_reason reason, double floor) {
-    queues_.subfacets.push({complex_.subfacet_id(t), reason, floor});
+  /// Queues a piece that v encroaches.
+  void note_encroached_subsegment(std::uint32_t s, Vertex_handle v) {
+    queues_.subsegments.push({complex_.subsegment_id(s), Split_reason::encroached, v->insertion_radius(),
+                              spacing_.reach({1, complex_.subsegment(s).segment}, split_points_.of_subsegment(s), v)});
+  }
+  void note_encroached_subfacet(std::uint32_t t, Vertex_handle v) {
+    constexpr auto reason = Split_reason::encroached;
+    queues_.subfacets.push({complex_.subfacet_id(t), reason, v->insertion_radius(),
+                            spacing_.reach({2, complex_.subfacet(t).facet}, split_points_.of_subfacet(t, reason), v)});
   }
   void request(bool is_subsegment, const Feature_request& r) {
     (is_subsegment ? queues_.subsegments : queues_.subfacets).push(r);
@@ -102,15 +110,17 @@ class Feature_refiner_3 {
   Split_outcome split_subsegment(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
     const auto& s = complex_.subsegment(slot);
     const Vec_3 a = position(s.vertices[0]), b = position(s.vertices[1]);
-    const Vec_3 m = split_point_of_subsegment(slot);
+    const Vec_3 m = split_points_.of_subsegment(slot);
     if (!region_.contains(m)) return point_elsewhere(m, complex_.subsegment_id(slot), true);
     if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
+    if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
     const Point p(m.x, m.y, m.z);
     if (!cavity_.find(p, seed_for_subsegment(s, p))) return Split_outcome::refused;
     if (spacing_.is_too_close(cavity_, m, {1, s.segment}, reason, guard, 0.5 * length(b - a))) return abandon();
 
     features_.gather(complex_, cavity_);
-    if (reason == Split_reason::encroached && tears_protected(m, {1, s.segment}, slot)) return abandon();
+    if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {1, s.segment}, slot))
+      return abandon();
     features_.mark_deleted(complex_, true);
     stars_.resize(s.subfacets.size());
     for (std::size_t k = 0; k < s.subfacets.size(); ++k)
@@ -122,18 +132,20 @@ class Feature_refiner_3 {
     // Vertices on the shell of one acute corner come as close to each other as the angles there make them; what
     // counts as their insertion radius is the shell's.
     for (const Vertex_handle end : s.vertices)
-      if (is_acute(end)) v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
+      if (split_points_.is_acute(end))
+        v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
     finish(v, complex_.halve_subsegment(pool_, slot, v), slot);
     complex_.remove_subsegment(pool_, slot);
-    mirror(v);
+    mirror(v, reason);
     return Split_outcome::inserted;
   }
 
   /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
   Split_outcome split_subfacet(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
     const auto& t = complex_.subfacet(slot);
-    const Vec_3 m = split_point_of_subfacet(slot, reason);
+    const Vec_3 m = split_points_.of_subfacet(slot, reason);
     if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
+    if (reason == Split_reason::encroached && split_points_.is_subfacet_protected(slot)) return Split_outcome::refused;
     if (!region_.contains(m)) return point_elsewhere(m, complex_.subfacet_id(slot), false);
     if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
     const Point p(m.x, m.y, m.z);
@@ -152,13 +164,13 @@ class Feature_refiner_3 {
         cavity_.abandon();
         return give_way(f.slot);
       }
-    const double radius =
-        triangle_circumradius(position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2]));
+    const double radius = triangle_circumradius(position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2]));
     if (spacing_.is_too_close(cavity_, m, {2, t.facet}, reason, guard, radius)) return abandon();
-    if (reason == Split_reason::encroached && tears_protected(m, {2, t.facet}, Complex::none)) return abandon();
+    if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
+      return abandon();
     const Vertex_handle v = insert_on_facet(at.subfacet, p, m);
     if (v == Vertex_handle()) return Split_outcome::refused;
-    mirror(v);
+    mirror(v, reason);
     return Split_outcome::inserted;
   }
 
@@ -174,16 +186,12 @@ class Feature_refiner_3 {
   void note_missing_subfacet(std::uint32_t t) {
     complex_.subfacet(t).present = false;
     torn_ = true;
-    request_subfacet(t, Split_reason::missing, 0);
+    request_subfacet(t, Split_reason::missing);
   }
   void note_missing_subsegment(std::uint32_t s) {
     complex_.subsegment(s).present = false;
-    request_subsegment(s, Split_reason::missing, 0);
+    queues_.subsegments.push({complex_.subsegment_id(s), Split_reason::missing});
   }
-  /// Next to small angles, what a vertex encroaches is split only if the new edges are no shorter than those that
-  /// the vertex itself came with: otherwise two features could drive each other to ever shorter ones.
-  static double floor_of(Vertex_handle v) { return v->insertion_radius(); }
-
   /// Called when every piece is present (again).
   void note_mended() { torn_ = false; }
   /// Whether a subfacet was lost since.
@@ -194,8 +202,8 @@ class Feature_refiner_3 {
   Vec_3 split_point(const Errand& e) const {
     if (e.is_image()) return e.home;
     if (e.is_subsegment)
-      return complex_.is_live_subsegment(e.piece) ? split_point_of_subsegment(e.piece.slot) : e.home;
-    return complex_.is_live_subfacet(e.piece) ? split_point_of_subfacet(e.piece.slot, e.reason) : e.home;
+      return complex_.is_live_subsegment(e.piece) ? split_points_.of_subsegment(e.piece.slot) : e.home;
+    return complex_.is_live_subfacet(e.piece) ? split_points_.of_subfacet(e.piece.slot, e.reason) : e.home;
   }
 
   /// Turns every queued request into an errand; missing pieces become stranded.
@@ -204,7 +212,7 @@ class Feature_refiner_3 {
       const bool segment = has_subsegments();
       const Feature_request r = segment ? queues_.subsegments.pop() : queues_.subfacets.pop();
       if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) continue;
-      elsewhere_ = {segment ? split_point_of_subsegment(r.piece.slot) : split_point_of_subfacet(r.piece.slot, r.reason),
+      elsewhere_ = {segment ? split_points_.of_subsegment(r.piece.slot) : split_points_.of_subfacet(r.piece.slot, r.reason),
                     r.piece, segment};
       hand_on(r, segment);
     }
@@ -234,7 +242,7 @@ class Feature_refiner_3 {
     Errand& e = *errand;
     if (e.is_image()) {
       if (!near_.contains_closed(position(e.by))) return false;
-      images_.add({e.by, e.facet, e.home});
+      images_.add({e.by, e.facet, e.home, e.reason != Split_reason::missing});
       put_images();
       return false;
     }
@@ -260,6 +268,7 @@ class Feature_refiner_3 {
 
  private:
   using Image = typename Facet_images_3<Tr>::Image;
+  static constexpr int most_tries = 3;  ///< of putting an image, with subsegments in the way
 
   void handle(bool only_missing) {
     const bool segment = has_subsegments();
@@ -272,26 +281,11 @@ class Feature_refiner_3 {
     const std::uint32_t slot = r.piece.slot;
     const bool present = segment ? complex_.subsegment(slot).present : complex_.subfacet(slot).present;
     if (r.reason == Split_reason::missing && present) return;
-    const Split_outcome outcome =
-        segment ? split_subsegment(slot, r.reason, {r.floor}) : split_subfacet(slot, r.reason, {r.floor});
+    const auto outcome = segment ? split_subsegment(slot, r.reason, r.guard()) : split_subfacet(slot, r.reason, r.guard());
     if (outcome == Split_outcome::elsewhere)
       hand_on(r, segment);
     else if (outcome == Split_outcome::inserted && !segment && complex_.is_live_subfacet(r.piece))
       queues_.subfacets.push(r);  // still there: a subsegment was split instead
-  }
-
-  Vec_3 split_point_of_subsegment(std::uint32_t slot) const {
-    const auto& ends = complex_.subsegment(slot).vertices;
-    return subsegment_split_point(position(ends[0]), position(ends[1]), is_acute(ends[0]), is_acute(ends[1]));
-  }
-
-  Vec_3 split_point_of_subfacet(std::uint32_t slot, Split_reason reason) const {
-    const auto& t = complex_.subfacet(slot);
-    const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
-    Vec_3 m = triangle_circumcenter(a, b, c);
-    // Off the center of cocircular vertices, or the next points would be cocircular again.
-    if (reason == Split_reason::flat) m = 0.8 * m + (0.2 / 3) * (a + b + c);
-    return complex_.plane(t.facet).project(m);
   }
 
   Split_outcome point_elsewhere(const Vec_3& at, Piece_id piece, bool is_subsegment) {
@@ -299,10 +293,8 @@ class Feature_refiner_3 {
     return Split_outcome::elsewhere;
   }
 
-  template <class Vertices>
-  bool is_near(const Vertices& vertices) const {
-    return std::all_of(vertices.begin(), vertices.end(),
-                       [this](Vertex_handle v) { return near_.contains_closed(position(v)); });
+  bool is_near(const auto& vertices) const {
+    return std::ranges::all_of(vertices, [this](Vertex_handle v) { return near_.contains_closed(position(v)); });
   }
 
   /// Of a missing piece nothing is known but its vertices; where these are far away, nobody else may be at work.
@@ -319,7 +311,7 @@ class Feature_refiner_3 {
     auto errand = std::make_unique<Errand>();
     errand->piece = elsewhere_.piece;
     errand->is_subsegment = elsewhere_.is_subsegment;
-    errand->guard = {r.floor};
+    errand->guard = r.guard();
     const bool redirected = elsewhere_.is_subsegment != segment;
     errand->reason = redirected ? reason_for_redirect(r.reason) : r.reason;
     if (redirected) {
@@ -328,8 +320,6 @@ class Feature_refiner_3 {
     }
     outgoing_.emplace_back(elsewhere_.at, std::move(errand));
   }
-
-  bool is_acute(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
 
   /// A subsegment in the way of a missing subfacet has to go as much as the subfacet itself has to come.
   static Split_reason reason_for_redirect(Split_reason reason) {
@@ -363,15 +353,16 @@ class Feature_refiner_3 {
 
   /// Gives the facets that meet v's at a small dihedral angle, and pass closer to v than other vertices are, a point at the
   /// like place (see `Facet_wedges_3`).
-  void mirror(Vertex_handle v) {
-    images_.add_of(v, made_);
+  void mirror(Vertex_handle v, Split_reason reason) {
+    images_.add_of(v, made_, reason != Split_reason::missing);
     put_images();
   }
 
   void put_images() {
+    if (std::exchange(is_putting_images_, true)) return;
     while (!images_.empty()) put_image(images_.pop());
+    is_putting_images_ = false;
   }
-
 
   /// Puts an image on its facet, or sends an errand there. Not where the facet is not, or has a vertex as near as v itself
   /// is, or subsegments are in the way.
@@ -381,6 +372,7 @@ class Feature_refiner_3 {
       errand->by = i.by;
       errand->facet = i.facet;
       errand->home = i.at;
+      if (!i.is_usual) errand->reason = Split_reason::missing;
       outgoing_.emplace_back(i.at, std::move(errand));
       return;
     }
@@ -396,19 +388,37 @@ class Feature_refiner_3 {
     const auto is_in_the_way = [&](const auto& f) {
       return f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p));
     };
-    if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near ||
-        std::ranges::any_of(features_.subsegments(), is_in_the_way))
-      return cavity_.abandon();
+    if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near) return cavity_.abandon();
+    if (make_way(i, is_in_the_way)) return;
     const Vertex_handle v = insert_on_facet(at, p, i.at);
     if (v == Vertex_handle()) return;
     v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
-    images_.add_of(v, made_);
+    images_.add_of(v, made_, i.is_usual);
+  }
+
+  /// Splits the subsegments in the way of an image, which has another try then. False if there are none.
+  /// \pre the features of the image's cavity are gathered
+  bool make_way(Image i, const auto& is_in_the_way) {
+    std::vector<Piece_id> way;
+    for (const auto& f : features_.subsegments())
+      if (is_in_the_way(f)) way.push_back(complex_.subsegment_id(f.slot));
+    if (way.empty()) return false;
+    cavity_.abandon();
+    if (i.tries++ == most_tries) return true;
+    bool is_split = false;
+    for (const Piece_id& s : way) {
+      if (!complex_.is_live_subsegment(s)) continue;
+      const Feature_id on{1, complex_.subsegment(s.slot).segment};
+      const Split_guard guard{i.by->insertion_radius(), {}, 0, spacing_.reach(on, split_points_.of_subsegment(s.slot), i.by)};
+      is_split |= split_subsegment(s.slot, Split_reason::encroached, guard) == Split_outcome::inserted;
+    }
+    if (is_split) images_.add(i);
+    return true;
   }
 
   /// Inserts p into the subfacet that holds it. None, with the cavity abandoned, if the sheet would not stay whole.
   /// \pre p's cavity is found and its features are gathered
   Vertex_handle insert_on_facet(std::uint32_t at, const Point& p, const Vec_3& m) {
-    const Index facet = complex_.subfacet(at).facet;
     features_.mark_deleted(complex_, true);
     stars_.resize(1);
     if (!stars_[0].plan(complex_, at, p, Complex::none)) {
@@ -416,13 +426,9 @@ class Feature_refiner_3 {
       cavity_.abandon();
       return {};
     }
-    const Vertex_handle v = commit(p, m, {2, facet});
+    const Vertex_handle v = commit(p, m, {2, complex_.subfacet(at).facet});
     finish(v, {Complex::none, Complex::none}, Complex::none);
     return v;
-  }
-
-  bool tears_protected(const Vec_3& m, const Feature_id& on, std::uint32_t split) const {
-    return pgdr::tears_protected(complex_, features_, acute_, std::sqrt(cavity_.squared_insertion_radius(m)), on, split);
   }
 
   Vertex_handle commit(const Point& p, const Vec_3& m, const Feature_id& on) {
@@ -456,10 +462,9 @@ class Feature_refiner_3 {
 
     for_each_encroached(
         tr_, complex_, cavity_, v, halves, made_,
-        [this](std::uint32_t s, Vertex_handle w) { request_subsegment(s, Split_reason::encroached, floor_of(w)); },
-        [this](std::uint32_t t, Vertex_handle w) { request_subfacet(t, Split_reason::encroached, floor_of(w)); });
-    const auto& star = cavity_.star();
-    for (const Cell_handle c : star) {
+        [this](std::uint32_t s, Vertex_handle w) { note_encroached_subsegment(s, w); },
+        [this](std::uint32_t t, Vertex_handle w) { note_encroached_subfacet(t, w); });
+    for (const Cell_handle c : cavity_.star()) {
       if (keep_fresh_) fresh_cells_.push_back({c, c->generation(), 0});
       if (keep_fresh_ && torn_) unlabelled_cells_.push_back({c, c->generation(), 0});
     }
@@ -468,6 +473,7 @@ class Feature_refiner_3 {
   Tr& tr_;
   Complex& complex_;
   const Acute_neighborhood_3& acute_;
+  Split_points_3<Tr> split_points_;
   Split_spacing_3<Tr> spacing_;
   Cavity_3<Tr> cavity_;
   Cavity_features_3<Tr> features_;
@@ -486,6 +492,7 @@ class Feature_refiner_3 {
   std::size_t inserted_ = 0;
   bool keep_fresh_ = false;
   bool torn_ = false;
+  bool is_putting_images_ = false;
 };
 
 }  // namespace pgdr

@@ -35,7 +35,7 @@ struct Split_guard {
   double floor = 0;                 ///< no new edge below this
   std::array<Vec_3, 4> where{};     ///< "next to" is: one of these points
   std::size_t count = 0;            ///< how many of them; 0: the split point itself
-  double reach = 0;                 ///< within this distance of a small angle; for `count` 0, 4 radii of the piece
+  double reach = 0;                 ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
 };
 
 /// The point and the piece at which a split was `elsewhere`.
@@ -50,6 +50,9 @@ struct Feature_request {
   Piece_id piece;
   Split_reason reason;
   double floor = 0;
+  double reach = 0;  ///< like the floor, see `Split_guard`
+
+  Split_guard guard() const { return {floor, {}, 0, reach}; }
 };
 
 /// The pieces of one leaf that wait to be split, subsegments before subfacets.

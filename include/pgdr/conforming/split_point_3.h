@@ -14,7 +14,8 @@ namespace pgdr {
 /// Where a subsegment (a, b) is split. Next to an acute corner the distance from that corner is a power of two
 /// (concentric shells: Ruppert 1995, section "Small angles in the input"), so that subsegments of one corner end
 /// at equal distances and stop encroaching each other; with two acute corners, or none, it is the midpoint.
-inline Vec_3 subsegment_split_point(const Vec_3& a, const Vec_3& b, bool acute_at_a, bool acute_at_b) {
+inline Vec_3 subsegment_split_point(const Vec_3& a, const Vec_3& b, bool acute_at_a, bool acute_at_b,
+                                    double smallest_shell = 0) {
   if (acute_at_a == acute_at_b) {
     Vec_3 m = 0.5 * (a + b);
     return m;
@@ -23,7 +24,7 @@ inline Vec_3 subsegment_split_point(const Vec_3& a, const Vec_3& b, bool acute_a
   const Vec_3& other = acute_at_a ? b : a;
   const double len = length(other - corner);
   // The power of two in (len/3, 2 len/3].
-  const double shell = std::exp2(std::floor(std::log2(2.0 / 3.0 * len)));
+  const double shell = std::max(smallest_shell, std::exp2(std::floor(std::log2(2.0 / 3.0 * len))));
   Vec_3 m = corner + (shell / len) * (other - corner);
   for (int i = 0; i < 3; ++i)
     if (a[i] == b[i]) m[i] = a[i];

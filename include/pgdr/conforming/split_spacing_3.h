@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/feature_request.h>
@@ -38,6 +39,14 @@ class Split_spacing_3 {
     });
   }
 
+  /// What a vertex v encroaches is split next to small angles only if the new edges are no shorter than those that v itself
+  /// came with: otherwise two features could drive each other to ever shorter ones. How far "next to" reaches: if v is this
+  /// close to m, the split point, just because the two features meet at a small angle, however far away they meet.
+  double reach(const Feature_id& on, const Vec_3& m, typename Tr::Vertex_handle v) const {
+    const bool explained = acute_.explains(on.dimension, on.index, m, v->in_dimension(), v->index(), position(v));
+    return explained ? std::numeric_limits<double>::infinity() : 0;
+  }
+
   /// Whether m, the split point of a piece of this radius, is not to be inserted.
   bool is_too_close(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, Split_reason reason,
                     const Split_guard& guard, double radius) const {
@@ -45,7 +54,7 @@ class Split_spacing_3 {
     if (d2 < squared_min_edge_) return true;
     const double floor2 = guard.floor * guard.floor * (1 - 1e-9);
     if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return false;
-    if (guard.count == 0) return acute_.contains(m, 4 * radius);
+    if (guard.count == 0) return acute_.contains(m, std::max(guard.reach, 4 * radius));
     return std::any_of(guard.where.begin(), guard.where.begin() + static_cast<std::ptrdiff_t>(guard.count),
                        [&](const Vec_3& p) { return acute_.contains(p, guard.reach); });
   }

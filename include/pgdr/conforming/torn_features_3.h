@@ -12,24 +12,19 @@
 
 namespace pgdr {
 
-/// Next to a small angle, edges shorter than this part of the shortest segment there are protected: no piece that is there is
-/// deleted for the sake of quality. Of features that keep deleting each other's pieces, ever closer to their common
-/// vertex, one has to give in.
-inline constexpr double protected_part = 1e-3;
-
-/// Whether a point on a feature, at this distance from the nearest vertex, would delete protected pieces of other features.
-/// `split` is the subsegment that the point splits, or none.
+/// Whether the point m on a feature would delete pieces of another feature so near to a small angle between the two that
+/// these are protected: no piece that is there is deleted for the sake of quality. Of features that keep deleting each
+/// other's pieces, ever closer to where they meet, one has to give in. `split` is the subsegment that the point splits, or none.
 template <class Tr>
 bool tears_protected(const Constraint_complex_3<Tr>& complex, const Cavity_features_3<Tr>& features,
-                     const Acute_neighborhood_3& acute, double distance, const Feature_id& on, std::uint32_t split) {
-  const double segment = distance / protected_part;
+                     const Acute_neighborhood_3& acute, const Vec_3& m, const Feature_id& on, std::uint32_t split) {
   const auto is_split = [&](Index facet) {
     if (on.dimension == 2) return facet == on.index;
     const auto& sheets = complex.subsegment(split).subfacets;
     return std::ranges::any_of(sheets, [&](std::uint32_t t) { return complex.subfacet(t).facet == facet; });
   };
   const auto is_protected = [&](int dimension, Index torn) {
-    return acute.meet_between_segments_over(segment, on.dimension, on.index, dimension, torn);
+    return acute.protects(m, on.dimension, on.index, dimension, torn);
   };
   return std::ranges::any_of(features.subsegments(),
                              [&](const auto& f) {
@@ -37,7 +32,7 @@ bool tears_protected(const Constraint_complex_3<Tr>& complex, const Cavity_featu
                              }) ||
          std::ranges::any_of(features.subfacets(), [&](const auto& f) {
            const Index facet = complex.subfacet(f.slot).facet;
-           return f.deleted && is_protected(2, facet) && !is_split(facet);
+           return f.deleted && !is_split(facet) && is_protected(2, facet);
          });
 }
 

@@ -380,6 +380,7 @@ class Delaunay_leaf_refiner_3 {
       return;
     }
     if (outside) return refine_outside(w, id, at, ball, corners, refused, list, result);
+    if (acute_.balls().protects(at, ball.squared_radius)) return give_up(id, at, corners, list, result);
     Cavity_3<Tr>& cavity = w.features_.cavity();
     if (!cavity.find(Point(at.x, at.y, at.z), id.cell)) {
       // Rounding can put the center of a flat tetrahedron outside of its own ball.
@@ -604,7 +605,7 @@ class Delaunay_leaf_refiner_3 {
       const std::uint32_t t = subfacet_of_flat_cell(complex_, d);
       if (t == Complex::none) continue;
       if (!hand_to_outside(complex_, d)) {
-        w.features_.request_subfacet(t, Split_reason::flat, 0);
+        w.features_.request_subfacet(t, Split_reason::flat);
         continue;
       }
       for (int i = 0; i < 4; ++i)

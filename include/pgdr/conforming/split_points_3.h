@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_CONFORMING_SPLIT_POINTS_3_H
+#define PGDR_CONFORMING_SPLIT_POINTS_3_H
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/feature_request.h>
+#include <pgdr/conforming/protected_balls_3.h>
+#include <pgdr/conforming/split_point_3.h>
+
+namespace pgdr {
+
+/// Where the pieces of a complex are split: subsegments in the middle or on a shell, subfacets at their circumcenter, neither
+/// inside a protected ball.
+template <class Tr>
+class Split_points_3 {
+ public:
+  using Complex = Constraint_complex_3<Tr>;
+  using Vertex_handle = typename Tr::Vertex_handle;
+
+  Split_points_3(const Complex& complex, const Acute_neighborhood_3& acute) : complex_(complex), acute_(acute) {}
+
+  bool is_acute(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
+
+  Vec_3 of_subsegment(std::uint32_t slot) const {
+    const auto& ends = complex_.subsegment(slot).vertices;
+    double shell = 0;
+    for (const Vertex_handle end : ends)
+      if (is_acute(end)) shell = acute_.balls().radius(end->index());
+    return subsegment_split_point(position(ends[0]), position(ends[1]), is_acute(ends[0]), is_acute(ends[1]), shell);
+  }
+
+  Vec_3 of_subfacet(std::uint32_t slot, Split_reason reason) const {
+    const auto& t = complex_.subfacet(slot);
+    Vec_3 m = circumcenter(slot);
+    // Off the center of cocircular vertices, or the next points would be cocircular again.
+    if (reason == Split_reason::flat)
+      m = 0.8 * m + (0.2 / 3) * (position(t.vertices[0]) + position(t.vertices[1]) + position(t.vertices[2]));
+    if (const Index v = ball_around(slot, m); v != Protected_balls_3::none) m = acute_.balls().on_sphere(v, m);
+    return complex_.plane(t.facet).project(m);
+  }
+
+  /// Whether all of a subsegment lies in the protected ball of one of its ends: it is not split.
+  bool is_subsegment_protected(std::uint32_t slot) const {
+    const auto& ends = complex_.subsegment(slot).vertices;
+    const auto protects = [&](Vertex_handle center, Vertex_handle other) {
+      return is_acute(center) && acute_.balls().contains_segment(center->index(), position(other));
+    };
+    return protects(ends[0], ends[1]) || protects(ends[1], ends[0]);
+  }
+
+  /// Whether the circumcenter of a subfacet lies in a protected ball: it is split only if it is missing, on the sphere.
+  bool is_subfacet_protected(std::uint32_t slot) const {
+    return ball_around(slot, circumcenter(slot)) != Protected_balls_3::none;
+  }
+
+ private:
+  Vec_3 circumcenter(std::uint32_t slot) const {
+    const auto& v = complex_.subfacet(slot).vertices;
+    return triangle_circumcenter(position(v[0]), position(v[1]), position(v[2]));
+  }
+
+  /// The vertex of the subfacet's facet in whose ball its circumcenter m is, or none.
+  Index ball_around(std::uint32_t slot, const Vec_3& m) const {
+    const auto& t = complex_.subfacet(slot);
+    if (!acute_.balls().protects(m, squared_distance(m, position(t.vertices[0])))) return Protected_balls_3::none;
+    const Index v = acute_.balls().find(m);
+    return std::ranges::binary_search(complex_.domain().facets[t.facet].vertices, v) ? v : Protected_balls_3::none;
+  }
+
+  const Complex& complex_;
+  const Acute_neighborhood_3& acute_;
+};
+
+}  // namespace pgdr
+
+#endif
