@@ -20,6 +20,18 @@ bool read_all(std::string_view text, Number& value) {
   return error == std::errc() && position == end;
 }
 
+/// Reads as many finite numbers as `values` has, with commas between them, from all of `text`.
+template <std::size_t N>
+bool read_numbers(std::string_view text, std::array<double, N>& values) {
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t comma = i + 1 < N ? text.find(',') : text.size();
+    if (comma == std::string_view::npos || !read_all(text.substr(0, comma), values[i]) || !std::isfinite(values[i]))
+      return false;
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return true;
+}
+
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;
   if (std::filesystem::equivalent(a, b, ignored)) return true;
@@ -85,6 +97,33 @@ Point_placement parse_placement(const std::string& text) {
   throw Usage_error("--placement must be circumcenter, type1, type2 or best-dihedral, not '" + text + "'");
 }
 
+std::array<double, 3> parse_point(const std::string& option, const std::string& text) {
+  std::array<double, 3> p{};
+  if (!read_numbers(std::string_view(text), p))
+    throw Usage_error(option + ": '" + text + "' is not of the form x,y,z with finite numbers");
+  return p;
+}
+
+Plc_region<Default_kernel> parse_region(const std::string& text) {
+  const auto fail = [&text](const std::string& why) -> Usage_error {
+    return Usage_error("--region: '" + text + "' " + why);
+  };
+  const std::size_t first = text.find(':');
+  if (first == std::string::npos) throw fail("is not of the form x,y,z:id or x,y,z:id:R");
+  const std::size_t second = text.find(':', first + 1);
+  const std::array<double, 3> p = parse_point("--region", text.substr(0, first));
+  Plc_region<Default_kernel> region;
+  region.point = {p[0], p[1], p[2]};
+  if (!read_all(std::string_view(text).substr(first + 1, second == std::string::npos ? second : second - first - 1), region.id))
+    throw fail("has an id that is not a whole number");
+  if (second != std::string::npos) {
+    if (!read_all(std::string_view(text).substr(second + 1), region.max_circumradius) ||
+        !(region.max_circumradius > 0) || std::isinf(region.max_circumradius))
+      throw fail("has a size R that is not a positive number");
+  }
+  return region;
+}
+
 Sizing_box parse_sizing_box(const std::string& text) {
   const auto fail = [&text](const std::string& why) -> Usage_error {
     return Usage_error("--refine-box: '" + text + "' " + why);
@@ -92,14 +131,8 @@ Sizing_box parse_sizing_box(const std::string& text) {
   const std::string form = "is not of the form x0,y0,z0,x1,y1,z1:R";
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) throw fail(form);
-  std::string_view corners(text.data(), colon);
   std::array<double, 6> c{};
-  for (std::size_t i = 0; i < 6; ++i) {
-    const std::size_t comma = i < 5 ? corners.find(',') : corners.size();
-    if (comma == std::string_view::npos || !read_all(corners.substr(0, comma), c[i])) throw fail(form);
-    corners.remove_prefix(std::min(comma + 1, corners.size()));
-    if (!std::isfinite(c[i])) throw fail("has a corner that is not finite");
-  }
+  if (!read_numbers(std::string_view(text.data(), colon), c)) throw fail(form + " with finite numbers");
   Sizing_box box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, 0};
   if (!read_all(std::string_view(text).substr(colon + 1), box.radius)) throw fail(form);
   if (!(box.radius > 0) || std::isinf(box.radius)) throw fail("has a size R that is not positive");

@@ -2,11 +2,14 @@
 #ifndef PGDR_APPS_ARGUMENTS_H
 #define PGDR_APPS_ARGUMENTS_H
 
+#include <array>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <pgdr/domain/default_kernel.h>
+#include <pgdr/domain/plc.h>
 #include <pgdr/parameters.h>
 #include <pgdr/sizing/box_sizing_field.h>
 
@@ -38,6 +41,12 @@ unsigned parse_threads(const std::string& option, const std::string& text);
 
 /// The value of `--placement`.
 Point_placement parse_placement(const std::string& text);
+
+/// The value of `--hole`: "x,y,z".
+std::array<double, 3> parse_point(const std::string& option, const std::string& text);
+
+/// The value of `--region`: "x,y,z:id" or "x,y,z:id:R" with a whole number id and R > 0.
+Plc_region<Default_kernel> parse_region(const std::string& text);
 
 /// The value of `--refine-box`: "x0,y0,z0,x1,y1,z1:R" with x0 < x1, y0 < y1, z0 < z1 and R > 0.
 Sizing_box parse_sizing_box(const std::string& text);

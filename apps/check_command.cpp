@@ -32,13 +32,13 @@ int run_check(const Check_arguments& arguments) {
   Check_options options;
   if (!arguments.radius_edge_ratio.empty())
     options.radius_edge_ratio = parse_positive("--radius-edge-ratio", arguments.radius_edge_ratio);
-  arguments.domain.tolerance();  // nonsense is refused even where it is not needed
+  arguments.domain.check();  // nonsense is refused even where it is not needed
   require_extension("MESH", arguments.mesh, {".mesh"});
 
   std::optional<Domain> domain;
   if (!arguments.plc.empty()) {
     domain = understand(read_input(arguments.plc, arguments.domain), arguments.domain);
-    print_or_throw(find_problems(*domain));
+    print_or_throw(find_problems(*domain, pairs_to_list("")));
   }
   const std::vector<Check_line> lines =
       check_mesh(read_medit(arguments.mesh), domain ? &*domain : nullptr, options);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <pgdr/domain/plc_from_domain_3.h>
 #include <pgdr/domain/summarize_domain_3.h>
@@ -24,6 +26,7 @@ namespace {
 struct Info_arguments {
   std::string input;
   std::string write_plc;
+  std::string problems;
   Domain_options domain;
 };
 
@@ -81,19 +84,33 @@ void print_summary(const Domain_summary& summary) {
   print_line("problems", summary.problems.empty() ? "none" : with_separators(summary.problems.size()));
 }
 
-int run_info(const Info_arguments& arguments) {
-  arguments.domain.tolerance();  // nonsense is refused before anything is read
+/// Everything that can be found out before anything is read.
+void check_outputs(const Info_arguments& arguments) {
+  arguments.domain.check();
+  std::vector<std::filesystem::path> files;
   if (!arguments.write_plc.empty()) {
     require_extension("--write-plc", arguments.write_plc, {".poly"});
-    require_distinct_files({arguments.input}, {arguments.write_plc});
-    check_writable(arguments.write_plc);
+    files.emplace_back(arguments.write_plc);
   }
-  const Domain domain = understand(read_input(arguments.input, arguments.domain), arguments.domain);
-  const Domain_summary summary = summarize_domain_3(domain);
-  print_summary(summary);
-  std::cout.flush();
-  print_or_throw(sort_problems(summary.problems));
-  if (!arguments.write_plc.empty()) write_poly(plc_from_domain_3(domain), arguments.write_plc);
+  if (!arguments.problems.empty()) {
+    require_extension("--problems", arguments.problems, {".vtu"});
+    files.emplace_back(arguments.problems);
+  }
+  require_distinct_files({arguments.input}, files);
+  for (const auto& file : files) check_writable(file);
+}
+
+int run_info(const Info_arguments& arguments) {
+  check_outputs(arguments);
+  const Plc plc = read_input(arguments.input, arguments.domain);
+  with_problem_file(arguments.problems, plc, [&] {
+    const Domain domain = understand(plc, arguments.domain);
+    const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(arguments.problems));
+    print_summary(summary);
+    std::cout.flush();
+    print_or_throw(sort_problems(summary.problems));
+    if (!arguments.write_plc.empty()) write_poly(plc_from_domain_3(domain), arguments.write_plc);
+  });
   return exit_done;
 }
 
@@ -107,6 +124,7 @@ Command add_info_command(CLI::App& program) {
       ->type_name("");
   parser->add_option("--write-plc", arguments->write_plc, "Write the PLC as understood and fused, as .poly")
       ->type_name("FILE");
+  add_problems_option(*parser, arguments->problems);
   arguments->domain.add_to(*parser);
   return {parser, [arguments] { return run_info(*arguments); }};
 }

@@ -13,6 +13,7 @@
 #include <pgdr/mesh/indexed_mesh_3.h>
 #include <pgdr/parallel/thread_arena.h>
 #include <pgdr/parameters.h>
+#include <pgdr/quality/exempt_angles.h>
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/refine_mesh_3.h>
 #include <pgdr/report/peak_memory.h>
@@ -47,6 +48,7 @@ struct Mesh_arguments {
   std::string threads;
   std::string stats;
   std::string trace;
+  std::string problems;
   std::string octree_depth;
   bool check_zones = false;
   bool ignore_region_sizes = false;
@@ -84,6 +86,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
                   "(three times slower, nearly no slivers)")
       ->type_name("POLICY");
   arguments.domain.add_to(parser);
+  add_problems_option(parser, arguments.problems);
   parser.add_flag("--ignore-region-sizes", arguments.ignore_region_sizes,
                   "Leave out the volume bounds of the input's regions");
   parser
@@ -144,6 +147,10 @@ void check_outputs(const Mesh_arguments& arguments) {
   std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
   if (!arguments.stats.empty()) files.emplace_back(arguments.stats);
   if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
+  if (!arguments.problems.empty()) {
+    require_extension("--problems", arguments.problems, {".vtu"});
+    files.emplace_back(arguments.problems);
+  }
   require_distinct_files({arguments.input}, files);
   for (const auto& file : files) check_writable(file);
 }
@@ -151,6 +158,7 @@ void check_outputs(const Mesh_arguments& arguments) {
 int run_mesh(const Mesh_arguments& arguments) {
   const Command_line_sizing sizing = sizing_field(arguments);
   Parameters p = parameters(arguments);
+  arguments.domain.check();
   check_outputs(arguments);
 
   Phase_timer timer;
@@ -161,11 +169,13 @@ int run_mesh(const Mesh_arguments& arguments) {
     const Plc plc = read_input(arguments.input, arguments.domain);
     timer.end_phase("reading");
     progress.show("checking the input");
-    domain = understand(plc, arguments.domain);
+    with_problem_file(arguments.problems, plc, [&] {
+      domain = understand(plc, arguments.domain);
+      const Problems problems = find_problems(*domain, pairs_to_list(arguments.problems));
+      progress.erase();
+      print_or_throw(problems);
+    });
   }
-  const Problems problems = find_problems(*domain);
-  progress.erase();
-  print_or_throw(problems);
   timer.end_phase("validation");
 
   Run_summary run;
@@ -175,7 +185,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   p.cancel = &interrupt.flag();
   p.progress = [&progress](const Progress& now) { progress.update(now); };
   {
-    auto refined = refine_mesh_3(std::move(*domain), sizing, p);
+    auto refined = refine_mesh_3(Domain(*domain), sizing, p);
     const Run_statistics& statistics = refined.statistics();
     run.stop = statistics.stop;
     run.stop_message = statistics.stop_message;
@@ -190,6 +200,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   run.quality = mesh_quality(mesh);
   run.checksum = mesh_checksum(mesh);
   run.exempt_tetrahedra = mesh.exempt.size();
+  run.exempt_angles = exempt_angles(mesh, *domain);
   timer.end_phase("measuring");
   for (const std::string& output : arguments.outputs) {
     progress.show("writing " + output);

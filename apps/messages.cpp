@@ -2,6 +2,7 @@
 #include "messages.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iostream>
 
 namespace pgdr::app {
@@ -14,7 +15,10 @@ void print_message(const std::string& text) {
 }
 
 void print_problems(const std::vector<Input_problem>& problems) {
-  for (const Input_problem& problem : problems) print_message(problem.message);
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < std::min(most, problems.size()); ++i) print_message(problems[i].message);
+  if (problems.size() > most)
+    print_message("and " + std::to_string(problems.size() - most) + " more (--problems FILE.vtu writes them all)");
 }
 
 }  // namespace pgdr::app

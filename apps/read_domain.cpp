@@ -29,6 +29,21 @@ void Domain_options::add_to(CLI::App& parser) {
           "void in turn from the outside (default: fill for .poly and .smesh, alternate for surfaces)")
       ->type_name("MODE")
       ->check(CLI::IsMember({"alternate", "fill"}));
+  parser.add_option("--hole", holes, "Leave the enclosed volume around this point empty, as x,y,z; repeatable")
+      ->type_name("POINT")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--region", regions,
+                  "Mesh the enclosed volume around this point as region id, with circumradii up to R, as x,y,z:id or "
+                  "x,y,z:id:R; repeatable")
+      ->type_name("POINT:ID[:R]")
+      ->allow_extra_args(false);
+}
+
+void Domain_options::check() const {
+  tolerance();
+  for (const std::string& text : holes) parse_point("--hole", text);
+  for (const std::string& text : regions) parse_region(text);
 }
 
 double Domain_options::tolerance() const {
@@ -39,11 +54,25 @@ double Domain_options::tolerance() const {
 Plc read_input(const std::filesystem::path& path, const Domain_options& options) {
   Plc plc = read_plc(path);
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
+  for (const std::string& text : options.holes) {
+    const auto p = parse_point("--hole", text);
+    plc.holes.emplace_back(p[0], p[1], p[2]);
+  }
+  std::vector<Plc_region<Default_kernel>> regions;
+  for (const std::string& text : options.regions) regions.push_back(parse_region(text));
+  plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
   return plc;
 }
 
 Domain understand(const Plc& plc, const Domain_options& options) {
   return make_domain_3(plc, options.tolerance(), options.triangulate);
+}
+
+void add_problems_option(CLI::App& parser, std::string& path) {
+  parser
+      .add_option("--problems", path,
+                  "Write the facets, edges and vertices that make the input invalid, as .vtu for ParaView")
+      ->type_name("FILE");
 }
 
 Problems sort_problems(const std::vector<Input_problem>& problems) {
@@ -55,7 +84,9 @@ Problems sort_problems(const std::vector<Input_problem>& problems) {
   return sorted;
 }
 
-Problems find_problems(const Domain& domain) { return sort_problems(validate_domain_3(domain)); }
+Problems find_problems(const Domain& domain, std::size_t max_pairs) {
+  return sort_problems(validate_domain_3(domain, max_pairs));
+}
 
 void print_or_throw(const Problems& problems) {
   for (const Input_problem& warning : problems.warnings) print_message("warning: " + warning.message);

@@ -2,7 +2,9 @@
 #ifndef PGDR_APPS_READ_DOMAIN_H
 #define PGDR_APPS_READ_DOMAIN_H
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
+#include <pgdr/io/write_problems.h>
 
 namespace pgdr::app {
 
@@ -21,19 +24,45 @@ struct Domain_options {
   std::string coplanar_tolerance;  ///< empty: the library's default
   bool triangulate = false;
   std::string nesting;  ///< empty: the file format's own
+  std::vector<std::string> holes;    ///< seeds besides those of the file
+  std::vector<std::string> regions;  ///< seeds that count before those of the file
 
-  /// Adds `--coplanar-tolerance`, `--triangulate` and `--nested`; the object must outlive the parsing.
+  /// Adds `--coplanar-tolerance`, `--triangulate`, `--nested`, `--hole` and `--region`; the object must outlive the parsing.
   void add_to(CLI::App& parser);
+
+  /// Refuses nonsense before anything is read. Throws `Usage_error`.
+  void check() const;
 
   /// The number behind `coplanar_tolerance`. Throws `Usage_error`.
   double tolerance() const;
 };
 
-/// Reads `path`. Throws `Input_error`.
+/// Reads `path` and adds the seeds of the options. Throws `Input_error`.
 Plc read_input(const std::filesystem::path& path, const Domain_options& options);
 
 /// Understands what was read. Throws `Input_error` for what cannot be understood at all.
 Domain understand(const Plc& plc, const Domain_options& options);
+
+/// Adds `--problems`.
+void add_problems_option(CLI::App& parser, std::string& path);
+
+/// Does `work`, and writes the problems of the `Input_error` that it throws, if it does, to a file for ParaView; without
+/// one, a file without cells. Nothing is written where `path` is empty.
+template <class Work>
+void with_problem_file(const std::string& path, const Plc& plc, const Work& work) {
+  try {
+    work();
+  } catch (const Input_error& error) {
+    if (!path.empty()) write_problems(plc, error.problems(), path);
+    throw;
+  }
+  if (!path.empty()) write_problems(plc, {}, path);
+}
+
+/// How many intersecting pairs to list: those that fit on a screen, or all for a file.
+inline std::size_t pairs_to_list(const std::string& problem_file) {
+  return problem_file.empty() ? 10 : std::numeric_limits<std::size_t>::max();
+}
 
 /// What is wrong with a domain, apart by whether it can be meshed nevertheless.
 struct Problems {
@@ -43,7 +72,7 @@ struct Problems {
 Problems sort_problems(const std::vector<Input_problem>& problems);
 
 /// All that `validate_domain_3` finds.
-Problems find_problems(const Domain& domain);
+Problems find_problems(const Domain& domain, std::size_t max_pairs);
 
 /// Prints the warnings on stderr and throws the errors as `Input_error`.
 void print_or_throw(const Problems& problems);

@@ -54,6 +54,12 @@ std::string stats_json(const Run_summary& run) {
                        {"volume", volume == quality.region_volumes.end() ? 0.0 : volume->second}});
   }
 
+  constexpr std::size_t most_angles = 100;
+  Json exempt_angles = Json::array();
+  for (const Exempt_angle& a : run.exempt_angles)
+    if (exempt_angles.size() < most_angles)
+      exempt_angles.push_back({{"degrees", a.degrees}, {"between", a.between}, {"tetrahedra", a.tetrahedra}});
+
   const Json json = {{"vertices", quality.vertices},
                      {"tetrahedra", quality.tetrahedra},
                      {"triangles", quality.triangles},
@@ -64,6 +70,7 @@ std::string stats_json(const Run_summary& run) {
                      {"max_circumradius", quality.max_circumradius},
                      {"min_dihedral_deg", quality.min_dihedral_deg},
                      {"exempt_tetrahedra", run.exempt_tetrahedra},
+                     {"exempt_angles", exempt_angles},
                      {"unrecovered", run.unrecovered},
                      {"threads", run.threads},
                      {"seconds", seconds},

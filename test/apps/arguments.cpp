@@ -22,6 +22,26 @@ TEST_CASE("refined boxes that make no sense are refused", "[apps]") {
   }
 }
 
+TEST_CASE("seeds are read as typed", "[apps]") {
+  CHECK(app::parse_point("--hole", "-1,2.5,1e3") == std::array<double, 3>{-1, 2.5, 1000});
+  const auto plain = app::parse_region("1,2,3:-4"), sized = app::parse_region("1,2,3:7:0.25");
+  CHECK(plain.point.y() == 2);
+  CHECK(plain.id == -4);
+  CHECK(plain.max_circumradius == 0);
+  CHECK(sized.id == 7);
+  CHECK(sized.max_circumradius == 0.25);
+  CHECK(sized.max_volume == 0);
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,nan", "1,2,inf", "1,2,3x", "1;2;3", "1,2,", ",,"}) {
+    INFO(text);
+    CHECK_THROWS_AS(app::parse_point("--hole", text), app::Usage_error);
+  }
+  for (const char* text : {"", "1,2,3", "1,2,3:", "1,2,3:x", "1,2,3:1.5", "1,2:3", "1,2,3:4:", "1,2,3:4:0", "1,2,3:4:-1",
+                           "1,2,3:4:nan", "1,2,3:4:inf", "1,2,3:4:5:6", "1,2,3::5", "1,2,3:99999999999"}) {
+    INFO(text);
+    CHECK_THROWS_AS(app::parse_region(text), app::Usage_error);
+  }
+}
+
 TEST_CASE("placements on the command line", "[apps]") {
   CHECK(app::parse_placement("circumcenter") == pgdr::Point_placement::circumcenter);
   CHECK(app::parse_placement("type1") == pgdr::Point_placement::type1);

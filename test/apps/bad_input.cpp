@@ -105,6 +105,42 @@ TEST_CASE("self-intersecting facets are named", "[apps]") {
   check_refused(sandbox, sandbox.write("crossing.poly", crossing_poly()), {"facet"}, false);
 }
 
+TEST_CASE("what is wrong is written for ParaView, too", "[apps]") {
+  const Sandbox sandbox;
+  const auto count = [&](const std::string& word) {
+    const std::string text = file_text(sandbox / "problems.vtu");
+    const std::size_t at = text.find(word + "=\"");
+    REQUIRE(at != std::string::npos);
+    return std::stoul(text.substr(at + word.size() + 2));
+  };
+  sandbox.write("crossing.poly", crossing_poly());
+  for (const std::string command : {"info crossing.poly", "mesh crossing.poly -o out.vtu"}) {
+    const Run run = sandbox.run(command + " --problems problems.vtu");
+    INFO(command << '\n' << run.err);
+    CHECK(run.exit_code == 3);
+    CHECK(run.err.find("facets 7 and 8 intersect at (0.5, 0.5, 0.5)") != std::string::npos);
+    CHECK(count("NumberOfCells") == 2);
+    CHECK(count("NumberOfPoints") == 8);
+    std::filesystem::remove(sandbox / "problems.vtu");
+  }
+  // An open surface: every edge with one facet is an error of its own, with that facet.
+  sandbox.write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n");
+  const Run open = sandbox.run("info open.off --problems problems.vtu");
+  INFO(open.err);
+  CHECK(open.exit_code == 3);
+  CHECK(std::count(open.err.begin(), open.err.end(), '\n') == 3);
+  CHECK(count("NumberOfCells") == 6);
+  // What cannot be understood at all is drawn from the file's own polygons.
+  sandbox.write("flat.off", tetrahedron_off("2 0 0"));
+  CHECK(sandbox.run("info flat.off --problems problems.vtu").exit_code == 3);
+  CHECK(count("NumberOfCells") == 1);
+  // Nothing wrong: no cells, so that no old file misleads.
+  CHECK(sandbox.run("info " + shape("cube.poly") + " --problems problems.vtu").exit_code == 0);
+  CHECK(count("NumberOfCells") == 0);
+  check_fails(sandbox, "info crossing.poly --problems problems.txt", 2, {"--problems", ".vtu"});
+  check_fails(sandbox, "info crossing.poly --problems crossing.poly", 2, {"--problems"});
+}
+
 TEST_CASE("a hole that leaves nothing", "[apps]") {
   const Sandbox sandbox;
   std::string text = file_text(data_file("cavity.poly"));

@@ -163,3 +163,25 @@ TEST_CASE("Ctrl-C stops the run with exit code 4 and a valid mesh", "[apps]") {
   CHECK(sandbox.names() == std::set<std::string>{"out.mesh"});
   CHECK(file_text(output).find("Tetrahedra") != std::string::npos);
 }
+
+TEST_CASE("seeds of the command line make holes, name regions and bound their sizes", "[apps]") {
+  const Sandbox sandbox;
+  const std::string model = shape("two_regions.poly");
+  const auto tetrahedra = [&](const std::string& seeds) {
+    const Run run = sandbox.run("mesh " + model + " -o out.mesh --stats out.json --quiet --ignore-region-sizes " + seeds);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    CHECK(sandbox.run("check out.mesh --plc " + model + " " + seeds).exit_code == 0);
+    return nlohmann::json::parse(file_text(sandbox / "out.json")).at("tetrahedra").get<std::size_t>();
+  };
+  const auto info = [&](const std::string& seeds) { return sandbox.run("info " + model + " " + seeds).out; };
+  const std::size_t both = tetrahedra("");
+  CHECK(tetrahedra("--hole 0.25,0.5,0.5") < both);
+  CHECK(tetrahedra("--region 0.25,0.5,0.5:77:0.1") > 2 * both);
+  CHECK(info("--hole 0.25,0.5,0.5").find("region 10") == std::string::npos);
+  // The first seed of a volume counts, and those of the command line come before those of the file.
+  const std::string named = info("--region 0.25,0.5,0.5:77");
+  CHECK(named.find("region 77") != std::string::npos);
+  CHECK(named.find("region 10") == std::string::npos);
+  CHECK(named.find("region 20") != std::string::npos);
+}

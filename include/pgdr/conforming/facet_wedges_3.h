@@ -41,13 +41,9 @@ class Facet_wedges_3 {
     for (Index s = 0; s < domain.segments.size(); ++s) {
       const auto [a, b] = domain.segments[s].vertices;
       const Vec_3 origin = to_vec(domain.vertices[a]), along = to_vec(domain.vertices[b]) - origin;
-      const auto inward = [&](const Sheet& sheet) {
-        const Vec_3 u = normalized(cross(to_vec(domain.facets[sheet.facet].normal), along));
-        return sheet.forward ? u : -1.0 * u;
-      };
       for (const Sheet& f : edges.sheets(s))
         for (const Sheet& g : edges.sheets(s)) {
-          const Vec_3 u = inward(f), v = inward(g);
+          const Vec_3 u = normalized(inward(domain, f, along)), v = normalized(inward(domain, g, along));
           const double angle = angle_deg(u, v);
           if (f.facet != g.facet && angle < limit)
             of_facet_[f.facet].push_back(

@@ -18,6 +18,7 @@ namespace pgdr {
 struct Subdomain {
   int id = 0;             ///< reference in the output
   double max_volume = 0;  ///< of a tetrahedron; not positive: no bound
+  double max_circumradius = 0;  ///< the same
 };
 
 /// Labels every cell with its subdomain, by flooding the triangulation up to subfacets. \pre none is missing.
@@ -180,7 +181,7 @@ class Subdomain_labeler_3 {
       if (v.region >= 0) {
         const auto& r = domain.regions[static_cast<std::size_t>(v.region)];
         v.label = static_cast<std::int32_t>(table_.size());
-        table_.push_back({r.id, ignore_region_sizes ? 0 : r.max_volume});
+        table_.push_back({r.id, ignore_region_sizes ? 0 : r.max_volume, r.max_circumradius});
       } else if (domain.nesting == Nesting::fill || v.depth % 2 == 1) {
         unnamed.push_back(&v);
       }
@@ -192,7 +193,7 @@ class Subdomain_labeler_3 {
       while (std::any_of(domain.regions.begin(), domain.regions.end(), [&](const auto& r) { return r.id == next; }))
         ++next;
       v->label = static_cast<std::int32_t>(table_.size());
-      table_.push_back({next++, 0});
+      table_.push_back({next++});
     }
   }
 

@@ -43,6 +43,8 @@ struct Plc_region {
   int id = 0;
   /// Upper bound of a tetrahedron's volume; not positive: no bound.
   double max_volume = 0;
+  /// Upper bound of a tetrahedron's circumradius; not positive: no bound. (No file format has it.)
+  double max_circumradius = 0;
 };
 
 /// A piecewise linear complex as the user wrote it: not yet merged, fused or checked (that is `Domain_3`).

@@ -76,14 +76,12 @@ Small_angles small_angles_3(const Domain_3<K>& domain) {
     const Vec_3 axis = normalized(points[b] - points[a]);
     Vec_3 u, v;
     for (const Sheet& sheet : edges.sheets(s)) {
-      // In the plane of the facet rather than of its triangle, which may be a needle.
-      const Vec_3 n = to_vec(domain.facets[sheet.facet].normal);
-      const Vec_3 inward = (sheet.forward ? 1.0 : -1.0) * cross(n, axis);
+      const Vec_3 leaving = inward(domain, sheet, axis);
       if (around.empty()) {
-        u = normalized(inward - dot(inward, axis) * axis);
+        u = normalized(leaving - dot(leaving, axis) * axis);
         v = cross(axis, u);
       }
-      double angle = std::atan2(dot(inward, v), dot(inward, u)) * 180.0 / std::numbers::pi;
+      double angle = std::atan2(dot(leaving, v), dot(leaving, u)) * 180.0 / std::numbers::pi;
       around.push_back(angle < 0 ? angle + 360 : angle);
     }
     result.segment_deg[s] = smallest_gap_deg(around);

@@ -87,7 +87,7 @@ Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pai
   report_intersections(domain, max_pairs, result.problems);
   if (!result.problems.empty()) return result;
   const Volumes_3<K> volumes(domain);
-  report_volumes(domain, volumes, result.problems);
+  report_volumes(domain, volumes, max_pairs, result.problems);
   result.closed = volumes.closed();
   result.volumes = volumes.volumes();
   result.material_volume = volumes.total_material_volume();

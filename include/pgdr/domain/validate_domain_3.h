@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,19 +62,17 @@ void report_intersections(const Domain_3<K>& domain, std::size_t max_pairs,
   const auto kind = Input_problem::Kind::self_intersection;
   std::vector<Input_problem> found;
 
-  std::vector<std::array<Index, 2>> facet_pairs;
+  std::map<std::array<Index, 2>, Id_pair> triangles_of_facets;  // the first two that meet
   for (const Id_pair& p : finder.triangles()) {
     const Index f = write.input_facet(soup.facet[p[0]]), g = write.input_facet(soup.facet[p[1]]);
-    facet_pairs.push_back({std::min(f, g), std::max(f, g)});
+    triangles_of_facets.insert({{std::min(f, g), std::max(f, g)}, p});
   }
-  std::sort(facet_pairs.begin(), facet_pairs.end());
-  facet_pairs.erase(std::unique(facet_pairs.begin(), facet_pairs.end()), facet_pairs.end());
-  for (const auto& p : facet_pairs)
-    found.push_back({kind,
-                     "facets " + std::to_string(p[0] + domain.first_index) + " and " +
-                         std::to_string(p[1] + domain.first_index) + " intersect",
-                     {p[0], p[1]},
-                     {}});
+  for (const auto& [facets, triangles] : triangles_of_facets) {
+    std::string message = "facets " + std::to_string(facets[0] + domain.first_index) + " and " +
+                          std::to_string(facets[1] + domain.first_index) + " intersect";
+    if (found.size() < max_pairs) message += " at " + write.point(finder.common_point(triangles[0], triangles[1]));
+    found.push_back({kind, message, {facets[0], facets[1]}, {}});
+  }
 
   // Segments of facets are edges of their triangles; only the others need a look of their own.
   std::vector<std::array<Index, 2>> loose;
@@ -124,30 +123,34 @@ void report_intersections(const Domain_3<K>& domain, std::size_t max_pairs,
   problems.insert(problems.end(), found.begin(), found.end());
 }
 
+/// Every edge with a facet on one side only, `most` of them at most, where the facets enclose nothing.
 template <class K>
-Input_problem open_surface_problem(const Domain_3<K>& domain) {
+void report_open_edges(const Domain_3<K>& domain, std::size_t most, std::vector<Input_problem>& problems) {
   const Problem_writer<K> write(domain);
   const Facet_edges edges(domain);
+  std::size_t found = 0;
   for (std::size_t s = 0; s < domain.segments.size(); ++s) {
-    if (edges.sheets(s).size() != 1) continue;
+    if (edges.sheets(s).size() != 1 || ++found > most) continue;
     const auto [a, b] = domain.segments[s].vertices;
     const Index facet = edges.sheets(s)[0].facet;
-    return {Input_problem::Kind::open_surface,
-            "the facets enclose no volume: the edge from " + write.vertex_name(a) + " to " +
-                write.vertex_name(b) + " belongs to one facet only",
-            {write.input_facet(facet)},
-            {domain.input_vertex[a], domain.input_vertex[b]}};
+    problems.push_back({Input_problem::Kind::open_surface,
+                        std::string(found == 1 ? "the facets enclose no volume: " : "") + "the edge from " +
+                            write.vertex_name(a) + " to " + write.vertex_name(b) + " belongs to one facet only, " +
+                            write.facet_name(facet),
+                        {write.input_facet(facet)},
+                        {domain.input_vertex[a], domain.input_vertex[b]}});
   }
-  return {Input_problem::Kind::open_surface, "the facets enclose no volume"};
+  if (found == 0) problems.push_back({Input_problem::Kind::open_surface, "the facets enclose no volume"});
+  if (found > 1) problems.back().message += " (" + std::to_string(found) + " such edges in all)";
 }
 
 /// What the volumes have wrong; only meaningful where nothing intersects.
 template <class K>
-void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes,
+void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std::size_t most,
                     std::vector<Input_problem>& problems) {
   using Kind = Input_problem::Kind;
   if (!volumes.closed()) {
-    problems.push_back(open_surface_problem(domain));
+    report_open_edges(domain, most, problems);
     return;
   }
   const auto stray = [&](const char* what, std::size_t i, const auto& point) {
@@ -169,7 +172,7 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes,
 /// `open_surface`: no volume is enclosed; `empty`: no facets, or no material; `bad_seed`: a hole or region
 /// seed outside of every enclosed volume. Volumes are judged only where nothing intersects. Facets go by the
 /// number of the first input facet that they were fused from.
-/// \param max_pairs number of intersecting pairs to name; the last one's message gives the total.
+/// \param max_pairs number of intersecting pairs, or of open edges, to name; the last one's message gives the total.
 template <class K>
 std::vector<Input_problem> validate_domain_3(const Domain_3<K>& domain, std::size_t max_pairs = 10) {
   using namespace domain_detail;
@@ -179,7 +182,7 @@ std::vector<Input_problem> validate_domain_3(const Domain_3<K>& domain, std::siz
     return problems;
   }
   report_intersections(domain, max_pairs, problems);
-  if (problems.empty()) report_volumes(domain, Volumes_3<K>(domain), problems);
+  if (problems.empty()) report_volumes(domain, Volumes_3<K>(domain), max_pairs, problems);
   return problems;
 }
 

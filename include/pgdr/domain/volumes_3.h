@@ -30,6 +30,7 @@ struct Volume {
   bool material = false;    ///< to be meshed
   int region_id = 0;        ///< of its region seed, else a number of its own; 0 where there is no material
   double max_volume = 0;    ///< of its region seed; not positive: no bound
+  double max_circumradius = 0;  ///< the same
   Index first_vertex = std::numeric_limits<Index>::max();  ///< smallest vertex on its boundary
 };
 
@@ -240,6 +241,7 @@ class Volumes_3 {
         volumes_[v].has_region = true;
         volumes_[v].region_id = region.id;
         volumes_[v].max_volume = region.max_volume;
+        volumes_[v].max_circumradius = region.max_circumradius;
       }
     }
     int next_id = 1;

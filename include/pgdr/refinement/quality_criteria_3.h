@@ -11,8 +11,8 @@
 
 namespace pgdr {
 
-/// When a tetrahedron is poor: radius-edge ratio, circumradius against the sizing field, volume against its
-/// subdomain's bound.
+/// When a tetrahedron is poor: radius-edge ratio, circumradius against the sizing field, volume and circumradius against its
+/// subdomain's bounds.
 template <class K, class Sizing>
   requires SizingField<Sizing, K>
 class Quality_criteria_3 {
@@ -33,13 +33,14 @@ class Quality_criteria_3 {
   }
 
   bool is_over_size(const Tetrahedron_ball& b, std::int32_t subdomain) const {
-    const double max_volume = subdomains_[static_cast<std::size_t>(subdomain)].max_volume;
-    if (max_volume > 0 && b.volume > max_volume) return true;
+    const Subdomain& s = subdomains_[static_cast<std::size_t>(subdomain)];
+    if (s.max_volume > 0 && b.volume > s.max_volume) return true;
+    if (s.max_circumradius > 0 && b.squared_radius > s.max_circumradius * s.max_circumradius) return true;
     const double r = size_at(b.center);
     return b.squared_radius > r * r;
   }
 
-  /// The sizing field, without the bounds on volume.
+  /// The sizing field, without the bounds of subdomains.
   double size_at(const Vec_3& p) const { return sizing_(typename K::Point_3(p.x, p.y, p.z)); }
 
   double radius_edge_ratio() const { return radius_edge_ratio_; }

@@ -2,6 +2,7 @@
 #ifndef PGDR_REPORT_RUN_SUMMARY_H
 #define PGDR_REPORT_RUN_SUMMARY_H
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iomanip>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/quality/exempt_angles.h>
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/report/format.h>
 #include <pgdr/report/run_statistics.h>
@@ -20,6 +22,7 @@ namespace pgdr {
 struct Run_summary {
   Mesh_quality quality;
   std::size_t exempt_tetrahedra = 0;
+  std::vector<Exempt_angle> exempt_angles;
   std::uint64_t checksum = 0;  ///< `mesh_checksum`
   Stop_reason stop = Stop_reason::finished;
   std::string stop_message;
@@ -47,6 +50,20 @@ inline const char* stop_reason_name(Stop_reason reason) {
   return "unknown";
 }
 
+/// Writes the angles with the most exempt tetrahedra, one a line.
+inline void print_exempt_angles(std::ostream& out, const std::vector<Exempt_angle>& angles) {
+  constexpr std::size_t most = 5;
+  const auto line = [&out](std::size_t count, const std::string& where) {
+    out << std::setw(31) << with_separators(count) << "  at " << where << '\n';
+  };
+  for (std::size_t i = 0; i < std::min(most, angles.size()); ++i)
+    line(angles[i].tetrahedra, "the " + significant(angles[i].degrees, 3) + " degree angle between " + angles[i].between);
+  if (angles.size() <= most) return;
+  std::size_t rest = 0;
+  for (std::size_t i = most; i < angles.size(); ++i) rest += angles[i].tetrahedra;
+  line(rest, counted(angles.size() - most, "other angle", "others"));
+}
+
 /// Writes the summary for people: one property a line.
 inline void print_summary(std::ostream& out, const Run_summary& run) {
   const Mesh_quality& quality = run.quality;
@@ -68,6 +85,7 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
   if (run.exempt_tetrahedra > 0)
     line("exempt", with_separators(run.exempt_tetrahedra),
          "tetrahedra over the bound, at small angles of the input");
+  print_exempt_angles(out, run.exempt_angles);
   if (run.unrecovered > 0)
     line("missing", with_separators(run.unrecovered), "pieces of segments and facets when it stopped");
   std::string phases;

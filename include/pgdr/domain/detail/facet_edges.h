@@ -22,6 +22,13 @@ struct Sheet {
   bool forward = false;  ///< the triangle runs along the segment from its smaller vertex to its larger one
 };
 
+/// The direction in which a sheet leaves its segment, which runs along `axis` from its smaller vertex to its larger one; in the
+/// plane of the facet rather than of its triangle, which may be a needle. As long as the axis.
+template <class K>
+Vec_3 inward(const Domain_3<K>& domain, const Sheet& sheet, const Vec_3& axis) {
+  return (sheet.forward ? 1.0 : -1.0) * cross(to_vec(domain.facets[sheet.facet].normal), axis);
+}
+
 /// The angle of a facet between two consecutive segments at a vertex.
 struct Facet_corner {
   Index facet = 0;

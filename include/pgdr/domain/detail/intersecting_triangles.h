@@ -8,7 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include <CGAL/Cartesian_converter.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Object.h>
 #include <CGAL/box_intersection_d.h>
+#include <CGAL/centroid.h>
+#include <CGAL/intersections.h>
 
 #include <pgdr/domain/detail/triangle_soup.h>
 
@@ -37,6 +42,21 @@ class Intersection_finder {
     });
     std::sort(result.begin(), result.end());
     return result;
+  }
+
+  /// A point in the middle of what two triangles have in common, rounded. \pre they meet
+  Work_point common_point(std::size_t s, std::size_t t) const {
+    using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+    const CGAL::Cartesian_converter<Work_kernel, Exact> to_exact;
+    const CGAL::Object common = CGAL::intersection(to_exact(soup_.triangle(s)), to_exact(soup_.triangle(t)));
+    std::vector<Exact::Point_3> points;
+    if (const auto* point = CGAL::object_cast<Exact::Point_3>(&common)) points = {*point};
+    if (const auto* segment = CGAL::object_cast<Exact::Segment_3>(&common)) points = {segment->source(), segment->target()};
+    if (const auto* triangle = CGAL::object_cast<Exact::Triangle_3>(&common))
+      points = {triangle->vertex(0), triangle->vertex(1), triangle->vertex(2)};
+    if (const auto* polygon = CGAL::object_cast<std::vector<Exact::Point_3>>(&common)) points = *polygon;
+    const Exact::Point_3 middle = CGAL::centroid(points.begin(), points.end(), CGAL::Dimension_tag<0>());
+    return {CGAL::to_double(middle.x()), CGAL::to_double(middle.y()), CGAL::to_double(middle.z())};
   }
 
   /// Pairs of a segment that belongs to no facet (its position) and a triangle, ascending.
