@@ -118,7 +118,7 @@ TEST_CASE("what is wrong is written for ParaView, too", "[apps]") {
     const Run run = sandbox.run(command + " --problems problems.vtu");
     INFO(command << '\n' << run.err);
     CHECK(run.exit_code == 3);
-    CHECK(run.err.find("facets 7 and 8 intersect at (0.5, 0.5, 0.5)") != std::string::npos);
+    CHECK(run.err.find("facets 1 and 2 intersect at (0.5, 0.5, 0.5)") != std::string::npos);
     CHECK(count("NumberOfCells") == 2);
     CHECK(count("NumberOfPoints") == 8);
     std::filesystem::remove(sandbox / "problems.vtu");
