@@ -38,7 +38,7 @@ int run_check(const Check_arguments& arguments) {
   std::optional<Domain> domain;
   if (!arguments.plc.empty()) {
     domain = understand(read_input(arguments.plc, arguments.domain), arguments.domain);
-    print_or_throw(find_problems(*domain, pairs_to_list("")));
+    print_or_throw(find_problems(*domain));
   }
   const std::vector<Check_line> lines =
       check_mesh(read_medit(arguments.mesh), domain ? &*domain : nullptr, options);

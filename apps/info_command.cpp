@@ -92,10 +92,7 @@ void check_outputs(const Info_arguments& arguments) {
     require_extension("--write-plc", arguments.write_plc, {".poly"});
     files.emplace_back(arguments.write_plc);
   }
-  if (!arguments.problems.empty()) {
-    require_extension("--problems", arguments.problems, {".vtu"});
-    files.emplace_back(arguments.problems);
-  }
+  add_problem_file(arguments.problems, files);
   require_distinct_files({arguments.input}, files);
   for (const auto& file : files) check_writable(file);
 }

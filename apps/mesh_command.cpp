@@ -147,10 +147,7 @@ void check_outputs(const Mesh_arguments& arguments) {
   std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
   if (!arguments.stats.empty()) files.emplace_back(arguments.stats);
   if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
-  if (!arguments.problems.empty()) {
-    require_extension("--problems", arguments.problems, {".vtu"});
-    files.emplace_back(arguments.problems);
-  }
+  add_problem_file(arguments.problems, files);
   require_distinct_files({arguments.input}, files);
   for (const auto& file : files) check_writable(file);
 }

@@ -75,6 +75,12 @@ void add_problems_option(CLI::App& parser, std::string& path) {
       ->type_name("FILE");
 }
 
+void add_problem_file(const std::string& path, std::vector<std::filesystem::path>& outputs) {
+  if (path.empty()) return;
+  require_extension("--problems", path, {".vtu"});
+  outputs.emplace_back(path);
+}
+
 Problems sort_problems(const std::vector<Input_problem>& problems) {
   Problems sorted;
   for (const Input_problem& problem : problems) {

@@ -46,6 +46,9 @@ Domain understand(const Plc& plc, const Domain_options& options);
 /// Adds `--problems`.
 void add_problems_option(CLI::App& parser, std::string& path);
 
+/// Adds the file of `--problems`, if there is one, to the outputs. Throws `Usage_error` unless it ends in .vtu.
+void add_problem_file(const std::string& path, std::vector<std::filesystem::path>& outputs);
+
 /// Does `work`, and writes the problems of the `Input_error` that it throws, if it does, to a file for ParaView; without
 /// one, a file without cells. Nothing is written where `path` is empty.
 template <class Work>
@@ -60,7 +63,7 @@ void with_problem_file(const std::string& path, const Plc& plc, const Work& work
 }
 
 /// How many intersecting pairs to list: those that fit on a screen, or all for a file.
-inline std::size_t pairs_to_list(const std::string& problem_file) {
+inline std::size_t pairs_to_list(const std::string& problem_file = {}) {
   return problem_file.empty() ? 10 : std::numeric_limits<std::size_t>::max();
 }
 
@@ -72,7 +75,7 @@ struct Problems {
 Problems sort_problems(const std::vector<Input_problem>& problems);
 
 /// All that `validate_domain_3` finds.
-Problems find_problems(const Domain& domain, std::size_t max_pairs);
+Problems find_problems(const Domain& domain, std::size_t max_pairs = pairs_to_list());
 
 /// Prints the warnings on stderr and throws the errors as `Input_error`.
 void print_or_throw(const Problems& problems);

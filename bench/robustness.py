@@ -37,7 +37,7 @@ class Result(NamedTuple):
 def ours(pgdr, model, limit, threads, folder):
     stats = folder / "stats.json"
     code, seconds, text = attempt([pgdr, "mesh", model, "--radius-edge-ratio", BOUND, "--ignore-region-sizes", "--threads",
-                               threads, "--quiet", "--stats", stats, "-o", folder / "out.mesh"], limit, folder)
+                                   threads, "--quiet", "--stats", stats, "-o", folder / "out.mesh"], limit, folder)
     if code is None:
         return Result(0, 0, seconds, "no end")
     if code != 0:

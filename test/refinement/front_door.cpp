@@ -284,10 +284,9 @@ TEST_CASE("Volumes without seeds are numbered alike by the mesher and from the f
   for (const bool inner_first : {true, false}) {
     CAPTURE(inner_first);
     Plc plc;
-    add_box(plc, inner_first ? std::array<double, 3>{1, 1, 1} : std::array<double, 3>{0, 0, 0},
-            inner_first ? std::array<double, 3>{2, 2, 2} : std::array<double, 3>{3, 3, 3});
-    add_box(plc, inner_first ? std::array<double, 3>{0, 0, 0} : std::array<double, 3>{1, 1, 1},
-            inner_first ? std::array<double, 3>{3, 3, 3} : std::array<double, 3>{2, 2, 2});
+    if (inner_first) add_box(plc, {1, 1, 1}, {2, 2, 2});
+    add_box(plc, {0, 0, 0}, {3, 3, 3});
+    if (!inner_first) add_box(plc, {1, 1, 1}, {2, 2, 2});
     for (const Plc& placed : {plc, tilted(plc)}) {
       const Mesh mesh = refined(placed);
       CHECK(failures(pgdr::check_mesh(pgdr::indexed_mesh_3(mesh), &mesh.domain())) == "");

@@ -74,10 +74,11 @@ class Protected_balls_3 {
     return nearest.second < r * r ? nearest.first.second : none;
   }
 
-  /// Whether the center p of an empty ball is in one of these.
-  bool protects(const Vec_3& p, double squared_radius) const {
-    return squared_radius < largest_ * largest_ && find(p) != none;
+  /// The same for the center p of an empty ball, which is not searched for where that ball is larger than all of these.
+  Index find(const Vec_3& p, double squared_radius) const {
+    return squared_radius < largest_ * largest_ ? find(p) : none;
   }
+  bool protects(const Vec_3& p, double squared_radius) const { return find(p, squared_radius) != none; }
 
   /// The point of the sphere around v in the direction of p. \pre p is not v
   Vec_3 on_sphere(Index v, const Vec_3& p) const {

@@ -67,8 +67,7 @@ class Split_points_3 {
   /// The vertex of the subfacet's facet in whose ball its circumcenter m is, or none.
   Index ball_around(std::uint32_t slot, const Vec_3& m) const {
     const auto& t = complex_.subfacet(slot);
-    if (!acute_.balls().protects(m, squared_distance(m, position(t.vertices[0])))) return Protected_balls_3::none;
-    const Index v = acute_.balls().find(m);
+    const Index v = acute_.balls().find(m, squared_distance(m, position(t.vertices[0])));
     return std::ranges::binary_search(complex_.domain().facets[t.facet].vertices, v) ? v : Protected_balls_3::none;
   }
 
