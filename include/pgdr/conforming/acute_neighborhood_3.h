@@ -24,6 +24,7 @@
 #endif
 
 #include <pgdr/conforming/facet_wedges_3.h>
+#include <pgdr/conforming/feature_id.h>
 #include <pgdr/conforming/protected_balls_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/small_angles_3.h>
@@ -105,6 +106,21 @@ class Acute_neighborhood_3 {
     });
   }
 
+  /// Whether two features come close to each other at vertices only, none of them the end of a segment with a small dihedral
+  /// angle. Then how far apart they are is bounded from below, but for their pieces at these vertices (`meet_at`).
+  bool meet_at_vertices_only(const Feature_id& a, const Feature_id& b) const {
+    const auto& of_b = angles_at(b.dimension, b.index);
+    return std::ranges::none_of(angles_at(a.dimension, a.index), [&](Place place) {
+      return ((place & segment_bit) || ends_wedge_[place]) && std::ranges::binary_search(of_b, place);
+    });
+  }
+
+  /// Whether two features meet at a small angle in this domain vertex.
+  bool meet_at(Index vertex, const Feature_id& a, const Feature_id& b) const {
+    return std::ranges::binary_search(angles_at(a.dimension, a.index), Place{vertex}) &&
+           std::ranges::binary_search(angles_at(b.dimension, b.index), Place{vertex});
+  }
+
   /// Whether two features meet at a small angle so near to m that it is protected there: within `Protected_balls_3::part` of
   /// the shortest segment of the vertex, or of the length of the segment, that they meet in.
   bool protects(const Vec_3& m, int p_dimension, Index p_feature, int q_dimension, Index q_feature) const {
@@ -125,11 +141,14 @@ class Acute_neighborhood_3 {
     const auto is_small = [](double degrees) { return degrees < limit; };
     const auto radians = [](double degrees) { return degrees * std::numbers::pi / 180; };
     at_segment_.resize(domain.segments.size());
+    ends_wedge_.resize(domain.vertices.size(), false);
     at_facet_.resize(domain.facets.size());
     segments_of_facet_.resize(domain.facets.size());
     for (Index s = 0; s < domain.segments.size(); ++s)
-      for (const Index v : domain.segments[s].vertices)
+      for (const Index v : domain.segments[s].vertices) {
         if (is_small(angles.vertex_deg[v])) at_segment_[s].push_back(v);
+        if (is_small(angles.segment_deg[s])) ends_wedge_[v] = true;
+      }
     for (auto& list : at_segment_) std::sort(list.begin(), list.end());
     for (Index f = 0; f < domain.facets.size(); ++f) {
       for (const Index v : domain.facets[f].vertices)
@@ -181,6 +200,7 @@ class Acute_neighborhood_3 {
   Facet_wedges_3 wedges_;
   std::optional<Protected_balls_3> balls_;
   std::vector<bool> is_acute_vertex_;
+  std::vector<bool> ends_wedge_;                           ///< vertices of segments with small dihedral angles
   std::vector<std::vector<Place>> at_segment_, at_facet_;  ///< the small angles there, ascending
   std::vector<std::vector<Index>> segments_of_facet_;
   std::vector<std::array<Index, 2>> ends_;

@@ -116,7 +116,7 @@ class Feature_refiner_3 {
     if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
     const Point p(m.x, m.y, m.z);
     if (!cavity_.find(p, seed_for_subsegment(s, p))) return Split_outcome::refused;
-    if (spacing_.is_too_close(cavity_, m, {1, s.segment}, reason, guard, 0.5 * length(b - a))) return abandon();
+    if (spacing_.is_too_close(cavity_, m, {1, s.segment}, s.vertices, reason, guard, 0.5 * length(b - a))) return abandon();
 
     features_.gather(complex_, cavity_);
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {1, s.segment}, slot))
@@ -165,7 +165,7 @@ class Feature_refiner_3 {
         return give_way(f.slot);
       }
     const double radius = triangle_circumradius(position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2]));
-    if (spacing_.is_too_close(cavity_, m, {2, t.facet}, reason, guard, radius)) return abandon();
+    if (spacing_.is_too_close(cavity_, m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
       return abandon();
     const Vertex_handle v = insert_on_facet(at.subfacet, p, m);
@@ -409,7 +409,7 @@ class Feature_refiner_3 {
     for (const Piece_id& s : way) {
       if (!complex_.is_live_subsegment(s)) continue;
       const Feature_id on{1, complex_.subsegment(s.slot).segment};
-      const Split_guard guard{i.by->insertion_radius(), {}, 0, spacing_.reach(on, split_points_.of_subsegment(s.slot), i.by)};
+      const Split_guard guard{.floor = i.by->insertion_radius(), .reach = spacing_.reach(on, split_points_.of_subsegment(s.slot), i.by)};
       is_split |= split_subsegment(s.slot, Split_reason::encroached, guard) == Split_outcome::inserted;
     }
     if (is_split) images_.add(i);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/feature_id.h>
 #include <pgdr/conforming/fifo.h>
 #include <pgdr/domain/vec_3.h>
 
@@ -32,10 +33,12 @@ enum class Split_outcome : std::uint8_t {
 /// The shortest edge that a split may make next to small input angles. Away from these there is no such limit, since
 /// the theory promises one; next to them it is what keeps the refinement from going on for ever.
 struct Split_guard {
-  double floor = 0;                 ///< no new edge below this
-  std::array<Vec_3, 4> where{};     ///< "next to" is: one of these points
-  std::size_t count = 0;            ///< how many of them; 0: the split point itself
-  double reach = 0;                 ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
+  double floor = 0;                     ///< no new edge below this
+  std::array<Vec_3, 4> where{};         ///< "next to" is: one of these points
+  std::size_t count = 0;                ///< how many of them; 0: the split point itself
+  double reach = 0;                     ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
+  double floor_apart = 0;               ///< if positive, in the place of `floor` for pieces without a vertex in which
+  std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
 };
 
 /// The point and the piece at which a split was `elsewhere`.
@@ -52,7 +55,7 @@ struct Feature_request {
   double floor = 0;
   double reach = 0;  ///< like the floor, see `Split_guard`
 
-  Split_guard guard() const { return {floor, {}, 0, reach}; }
+  Split_guard guard() const { return {.floor = floor, .reach = reach}; }
 };
 
 /// The pieces of one leaf that wait to be split, subsegments before subfacets.

@@ -7,17 +7,12 @@
 #include <limits>
 
 #include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/feature_id.h>
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mesh/cavity_3.h>
 
 namespace pgdr {
-
-/// A segment or a facet.
-struct Feature_id {
-  int dimension;  ///< 1: segment, 2: facet
-  Index index;
-};
 
 /// How close to other vertices a point on a feature may be.
 ///
@@ -47,12 +42,13 @@ class Split_spacing_3 {
     return explained ? std::numeric_limits<double>::infinity() : 0;
   }
 
-  /// Whether m, the split point of a piece of this radius, is not to be inserted.
-  bool is_too_close(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, Split_reason reason,
+  /// Whether m, the split point of a piece with these vertices and this radius, is not to be inserted.
+  bool is_too_close(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason,
                     const Split_guard& guard, double radius) const {
     const double d2 = cavity.squared_insertion_radius(m);
     if (d2 < squared_min_edge_) return true;
-    const double floor2 = guard.floor * guard.floor * (1 - 1e-9);
+    const double floor = is_apart(vertices, guard) ? guard.floor_apart : guard.floor;
+    const double floor2 = floor * floor * (1 - 1e-9);
     if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return false;
     if (guard.count == 0) return acute_.contains(m, std::max(guard.reach, 4 * radius));
     return std::any_of(guard.where.begin(), guard.where.begin() + static_cast<std::ptrdiff_t>(guard.count),
@@ -60,6 +56,13 @@ class Split_spacing_3 {
   }
 
  private:
+  /// Whether a piece has none of the vertices in which the features of the guard's edge meet.
+  bool is_apart(const auto& vertices, const Split_guard& guard) const {
+    return guard.floor_apart > 0 && std::ranges::none_of(vertices, [&](typename Tr::Vertex_handle v) {
+      return v->in_dimension() == 0 && acute_.meet_at(v->index(), guard.meeting[0], guard.meeting[1]);
+    });
+  }
+
   const Acute_neighborhood_3& acute_;
   double squared_min_edge_;
 };

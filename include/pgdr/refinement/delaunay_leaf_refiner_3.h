@@ -34,7 +34,7 @@ namespace pgdr {
 ///
 /// A Steiner point that encroaches a subsegment or subfacet, or that would delete one, is not inserted; the feature
 /// is split instead. A tetrahedron is given up only next to a small input angle, when every such split would make
-/// an edge too short (`shortest_allowed`). Outside the domain, tetrahedra are refined only as far as the zone
+/// an edge too short (`split_guard`). Outside the domain, tetrahedra are refined only as far as the zone
 /// condition of the leaves needs it, and never at the expense of a feature.
 template <class Tr, class Criteria, class Placement = Circumcenter_placement>
 class Delaunay_leaf_refiner_3 {
@@ -553,10 +553,7 @@ class Delaunay_leaf_refiner_3 {
   Split_outcome split_obstacle(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
                                const Tetrahedron_points& corners, const std::vector<Piece_id>& refused) const {
     Features& features = w.features_;
-    const Allowance allowed = shortest_allowed(id.cell, ball, corners, criteria_.is_over_ratio(ball), acute_);
-    const Split_guard guard{allowed.shortest, corners, 4,
-                            allowed.is_explained ? std::numeric_limits<double>::infinity()
-                                                 : 4 * std::sqrt(ball.squared_radius)};
+    const Split_guard guard = split_guard(id.cell, ball, corners, criteria_.is_over_ratio(ball), acute_);
     const bool segments = w.obstacles_.are_subsegments();
     for (const Piece_id& piece : w.obstacles_.to_split()) {
       if (std::any_of(refused.begin(), refused.end(), [&](const Piece_id& r) {
