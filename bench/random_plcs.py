@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes small random PLCs that are hard on a mesher, by quality alone, and checks the meshes.
 
-Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only;
-some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the
+Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only,
+dented hulls of random points; some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the
 numbers of those that did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that
 the failure does not need.
 
@@ -21,7 +21,7 @@ from pathlib import Path
 
 from measure import ROOT, attempt, table
 
-KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair")
+KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull")
 
 
 def _box(points, facets, half):
@@ -137,6 +137,39 @@ def _pair(rng, points, facets):
             points.append((r * math.cos(offset), r * math.sin(offset), k * r * math.tan(phi)))
         facets.append([0, first, first + 1])
     _box(points, facets, 1)
+
+
+def _hull(rng, points, facets):
+    """Up to three hulls of random points, one triangle of some dented, inside a box."""
+    for cell in rng.sample(range(8), rng.randint(1, 3)):
+        corner = [-0.5 if cell >> k & 1 else 0.5 for k in range(3)]
+        cloud = [tuple(c + rng.uniform(-0.45, 0.45) for c in corner) for _ in range(rng.randint(4, 14))]
+        hull = []
+        for i in range(len(cloud)):
+            for j in range(i + 1, len(cloud)):
+                for k in range(j + 1, len(cloud)):
+                    sides = [_side(cloud[i], cloud[j], cloud[k], p) for m, p in enumerate(cloud) if m not in (i, j, k)]
+                    if min(sides) > 0 or max(sides) < 0:
+                        hull.append((i, j, k))
+        first = len(points)
+        points += cloud
+        corners = {i for f in hull for i in f}
+        middle = tuple(sum(cloud[i][c] for i in corners) / len(corners) for c in range(3))
+        dented = rng.choice(hull) if rng.random() < 0.5 else None
+        for f in hull:
+            if f != dented:
+                facets.append([first + i for i in f])
+                continue
+            t = rng.uniform(0.05, 0.9)
+            points.append(tuple(t * middle[c] + (1 - t) * sum(cloud[i][c] for i in f) / 3 for c in range(3)))
+            facets += [[first + f[i], first + f[(i + 1) % 3], len(points) - 1] for i in range(3)]
+    _box(points, facets, 1)
+
+
+def _side(a, b, c, p):
+    """Six times the volume of a tetrahedron, with its sign."""
+    u, v, w = ([x - y for x, y in zip(q, a)] for q in (b, c, p))
+    return sum(u[i] * (v[(i + 1) % 3] * w[(i + 2) % 3] - v[(i + 2) % 3] * w[(i + 1) % 3]) for i in range(3))
 
 
 def _rotation(rng):

@@ -372,7 +372,7 @@ class Feature_refiner_3 {
       errand->by = i.by;
       errand->facet = i.facet;
       errand->home = i.at;
-      if (!i.is_usual) errand->reason = Split_reason::missing;
+      errand->reason = i.is_usual ? Split_reason::encroached : Split_reason::missing;
       outgoing_.emplace_back(i.at, std::move(errand));
       return;
     }
@@ -380,20 +380,20 @@ class Feature_refiner_3 {
     if (!cavity_.find(p, tr_.locate(p, i.by->cell()))) return;
     features_.gather(complex_, cavity_);
     const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
-    const double radius = i.by->insertion_radius();
-    const double near = 0.5 * std::min(radius, length(i.at - position(i.by)));
+    const double radius = i.by->insertion_radius(), near = 0.5 * std::min(radius, length(i.at - position(i.by)));
     const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.facet); };
-    // A segment's point does not mind what it encroaches; neither does its image.
-    const bool yields = i.by->in_dimension() == 2;
+    // A segment's point does not mind what it encroaches; neither does its image, unless that is nearer than vertices may be.
     const auto is_in_the_way = [&](const auto& f) {
-      return f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p));
+      const auto& s = complex_.subsegment(f.slot);
+      const double d2 = squared_distance_to_line(i.at, position(s.vertices[0]), position(s.vertices[1]));
+      return f.deleted || (is_encroached(s, p) && (i.by->in_dimension() == 2 || d2 < near * near));
     };
     if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near) return cavity_.abandon();
     if (make_way(i, is_in_the_way)) return;
-    const Vertex_handle v = insert_on_facet(at, p, i.at);
-    if (v == Vertex_handle()) return;
-    v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
-    images_.add_of(v, made_, i.is_usual);
+    if (const Vertex_handle v = insert_on_facet(at, p, i.at); v != Vertex_handle()) {
+      v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
+      images_.add_of(v, made_, i.is_usual);
+    }
   }
 
   /// Splits the subsegments in the way of an image, which has another try then. False if there are none.

@@ -27,6 +27,10 @@ inline Vec_3 cross(const Vec_3& a, const Vec_3& b) {
 inline double squared_length(const Vec_3& a) { return dot(a, a); }
 inline double length(const Vec_3& a) { return std::sqrt(dot(a, a)); }
 inline double squared_distance(const Vec_3& a, const Vec_3& b) { return squared_length(a - b); }
+/// Of p and the line through a and b, two different points.
+inline double squared_distance_to_line(const Vec_3& p, const Vec_3& a, const Vec_3& b) {
+  return squared_length(cross(p - a, b - a)) / squared_distance(a, b);
+}
 
 /// The coordinates of a point of any kernel, rounded to double.
 template <class Point_3>
