@@ -17,9 +17,9 @@ int format_event(char* line, std::size_t size, const Task_record& r) {
     return std::snprintf(line, size,
                          "{\"name\":\"leaf\",\"cat\":\"leaf\",\"ph\":\"X\",\"pid\":1,\"tid\":%u,\"ts\":%.3f,"
                          "\"dur\":%.3f,\"args\":{\"epoch\":%u,\"wave\":%u,\"level\":%u,\"x\":%u,\"y\":%u,\"z\":%u,"
-                         "\"inserted\":%u}}",
+                         "\"inserted\":%u,\"territory\":%u}}",
                          unsigned{r.thread}, start, length, r.epoch, r.wave, unsigned{r.level}, r.x, r.y, r.z,
-                         r.inserted);
+                         r.inserted, unsigned{r.territory});
   return std::snprintf(line, size,
                        "{\"name\":\"%s\",\"cat\":\"%s\",\"ph\":\"X\",\"pid\":1,\"tid\":%u,\"ts\":%.3f,\"dur\":%.3f}",
                        r.name, r.kind == Task_record::Kind::serial ? "serial" : "parallel", unsigned{r.thread}, start,

@@ -92,6 +92,7 @@ class Event_handler : public nlohmann::json_sax<Json> {
     } else if (at(event_depth + 1, "traceEvents") && event_key_ == "args") {
       for (std::size_t i = 0; i < field_count; ++i)
         if (key_ == field_names[i]) fields_[i] = value;
+      if (key_ == "territory") is_part_ = value != 0;
     }
     return true;
   }
@@ -103,6 +104,7 @@ class Event_handler : public nlohmann::json_sax<Json> {
     start_.reset();
     duration_.reset();
     fields_.fill(std::nullopt);
+    is_part_ = false;
   }
 
   void end_event() {
@@ -133,7 +135,8 @@ class Event_handler : public nlohmann::json_sax<Json> {
                             value[epoch],
                             value[wave],
                             1e-6 * *start_,
-                            1e-6 * *duration_});
+                            1e-6 * *duration_,
+                            is_part_});
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -147,6 +150,7 @@ class Event_handler : public nlohmann::json_sax<Json> {
   std::string root_key_, event_key_, key_, phase_, category_, name_;
   std::optional<double> start_, duration_;
   std::array<std::optional<double>, field_count> fields_{};
+  bool is_part_ = false;
 };
 
 }  // namespace

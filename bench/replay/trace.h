@@ -23,6 +23,7 @@ struct Leaf_task {
   std::uint32_t epoch = 0, wave = 0;
   double start = 0;    ///< seconds
   double seconds = 0;  ///< how long it ran
+  bool is_part = false;  ///< of a leaf's work, divided among territories; touches none of the others
 };
 
 /// Something that happened between waves, with the whole machine to itself.
@@ -44,12 +45,12 @@ struct Trace {
 ///
 ///   {"otherData": {"threads": N}, "traceEvents": [
 ///     {"ph": "X", "cat": "leaf", "name": "leaf", "ts": us, "dur": us, "tid": t,
-///      "args": {"epoch": e, "wave": w, "level": l, "x": i, "y": j, "z": k, "inserted": n}},
+///      "args": {"epoch": e, "wave": w, "level": l, "x": i, "y": j, "z": k, "inserted": n, "territory": t}},
 ///     {"ph": "X", "cat": "serial", "name": "...", "ts": us, "dur": us, "tid": t},
 ///     {"ph": "X", "cat": "parallel", "name": "...", "ts": us, "dur": us, "tid": t}, ...]}
 ///
 /// Only complete events ("ph": "X") of these categories count; others, such as the names of threads, are skipped, and
-/// so are members that are not listed. Tasks are sorted by (epoch, wave, start, key), sections by start.
+/// so are members that are not listed. A territory other than 0 makes a task a part; it may be left out. Tasks are sorted by (epoch, wave, start, key), sections by start.
 /// The file is never held as a tree, so that millions of events fit. Throws Trace_error, with the number of the event.
 Trace read_trace(std::istream& in);
 

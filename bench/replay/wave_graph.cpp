@@ -78,9 +78,18 @@ std::string name_of(const Octree_key& leaf) {
          std::to_string(leaf.y) + ", " + std::to_string(leaf.z) + ")";
 }
 
+Wave_graph make_graph_without_edges(std::span<const Leaf_task> tasks) {
+  Wave_graph graph;
+  for (const Leaf_task& task : tasks) graph.seconds.push_back(task.seconds);
+  graph.predecessors.assign(tasks.size(), 0);
+  graph.first.assign(tasks.size() + 1, 0);
+  return graph;
+}
+
 }  // namespace
 
 Wave_graph make_wave_graph(std::span<const Leaf_task> tasks) {
+  if (std::ranges::any_of(tasks, &Leaf_task::is_part)) return make_graph_without_edges(tasks);
   std::vector<std::uint32_t> order(tasks.size());
   std::iota(order.begin(), order.end(), 0U);
   const auto rank = [&](std::uint32_t i) {

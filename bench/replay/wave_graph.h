@@ -24,7 +24,7 @@ struct Wave_graph {
 };
 
 /// The graph of the tasks of one wave. Tasks are renumbered in the order that directs the edges, so that every edge
-/// goes from a lower number to a higher one. Possible neighbours are looked up, not searched: the time grows as the
+/// goes from a lower number to a higher one; parts have no edges. Possible neighbours are looked up, not searched: the time grows as the
 /// number of tasks by that of levels. Throws Trace_error where two leaves overlap.
 Wave_graph make_wave_graph(std::span<const Leaf_task> tasks);
 

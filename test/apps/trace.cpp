@@ -45,6 +45,7 @@ struct Traced_run {
 struct Task {
   pgdr::Octree_key key;
   double begin, end;
+  int territory;  ///< not 0 where the leaf's work was divided
 };
 
 std::map<int, std::vector<Task>> waves(const std::vector<json>& leaf_events) {
@@ -54,7 +55,7 @@ std::map<int, std::vector<Task>> waves(const std::vector<json>& leaf_events) {
     const pgdr::Octree_key key{a["x"].get<std::uint32_t>(), a["y"].get<std::uint32_t>(), a["z"].get<std::uint32_t>(),
                                a["level"].get<std::uint8_t>()};
     const double begin = e["ts"].get<double>();
-    waves[a["wave"].get<int>()].push_back({key, begin, begin + e["dur"].get<double>()});
+    waves[a["wave"].get<int>()].push_back({key, begin, begin + e["dur"].get<double>(), a["territory"].get<int>()});
   }
   return waves;
 }
@@ -91,8 +92,8 @@ void check_run(const Traced_run& run, unsigned threads) {
       early += wave[i].begin < last_end - rounding;  // waves do not overlap
       end = std::max(end, wave[i].end);
       for (std::size_t j = 0; j < wave.size(); ++j) {
-        if (i != j) CHECK(!(wave[i].key == wave[j].key));
-        if (i == j || !pgdr::touch(wave[i].key, wave[j].key) || !pgdr::Task_order()(wave[i].key, wave[j].key)) continue;
+        if (i != j) CHECK((wave[i].territory != wave[j].territory || !(wave[i].key == wave[j].key)));
+        if (i == j || wave[i].territory != 0 || !pgdr::touch(wave[i].key, wave[j].key) || !pgdr::Task_order()(wave[i].key, wave[j].key)) continue;
         ++ordered;
         early += wave[j].begin < wave[i].end - rounding;
       }

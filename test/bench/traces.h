@@ -15,7 +15,7 @@ inline pgdr::Octree_key node(int level, std::uint32_t x, std::uint32_t y, std::u
 }
 
 inline pgdr::bench::Leaf_task task(pgdr::Octree_key key, double seconds, double start = 0) {
-  return {key, 0, 0, start, seconds};
+  return {key, 0, 0, start, seconds, false};
 }
 
 /// All leaves of one level, each of which ran for the same time, one after another.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -30,6 +31,18 @@ TEST_CASE("leaves that touch in a face, an edge or a corner are joined, others a
   CHECK(edge_count({task(node(2, 3, 0, 0), 1), task(node(2, 0, 1, 0), 1)}) == 0);  // no wrap around
   CHECK(edge_count({task(node(1, 0, 0, 0), 1), task(node(3, 4, 4, 4), 1)}) == 1);
   CHECK(edge_count({task(node(1, 0, 0, 0), 1), task(node(3, 4, 4, 5), 1)}) == 0);
+}
+
+TEST_CASE("the parts of one leaf run all at once") {
+  std::vector<Leaf_task> tasks(3, task(node(0, 0, 0, 0), 1));
+  tasks[1].seconds = 2;
+  CHECK_THROWS_AS(make_wave_graph(tasks), Trace_error);
+  for (Leaf_task& t : tasks) t.is_part = true;
+  const Wave_graph graph = make_wave_graph(tasks);
+  CHECK(graph.seconds == std::vector<double>{1, 2, 1});
+  CHECK(graph.predecessors == std::vector<std::uint32_t>(3, 0));
+  CHECK(graph.successors.empty());
+  CHECK(graph.first == std::vector<std::uint32_t>(4, 0));
 }
 
 TEST_CASE("a full grid has as many pairs as a king in space has moves") {

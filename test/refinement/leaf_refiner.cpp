@@ -115,6 +115,14 @@ class Interval_refiner {
 
   double estimate_outside(const Worklist&, double) const { return 0; }
 
+  // Intervals are always fine enough for leaves.
+  struct Division {
+    std::vector<Worklist> parts;
+    std::vector<Region_3> regions;
+  };
+  Division divide(Worker&, Worklist&, const Leaf_task&, std::size_t, unsigned) const { return {}; }
+  void unite(Worklist&, std::vector<Worklist>&, double, double) const {}
+
   pgdr::Scan_result scan(const Region_3&, const Region_3&, double bound, const Worklist& list) const {
     return {list.coarsest() < bound, list.coarsest()};
   }

@@ -36,6 +36,12 @@ struct List_engine {
   pgdr::Drain_result drain(Worker&, const pgdr::Leaf_task&, Worklist&) { return {}; }
   void receive(Worklist&, Parcel&&, double, double) const {}
   void activate(Worklist&, double, double) const {}
+  struct Division {
+    std::vector<Worklist> parts;
+    std::vector<pgdr::Region_3> regions;
+  };
+  Division divide(Worker&, Worklist&, const pgdr::Leaf_task&, std::size_t, unsigned) { return {}; }
+  void unite(Worklist&, std::vector<Worklist>&, double, double) const {}
   pgdr::Work_estimate estimate(const Worklist& list) const { return list.estimate; }
   double estimate_outside(const Worklist& list, double) const { return list.outside; }
   pgdr::Scan_result scan(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound,

@@ -113,7 +113,7 @@ class Cocircular_polygon_3 {
   }
 
   void replace() {
-    unmark_survivors(tr_, complex_, members_);
+    unmark_survivors(complex_, star_, members_);
     for (const std::uint32_t t : members_) complex_.remove_subfacet(pool_, t);
     build(0, corners_.size() - 1, edges_.back().outside);
   }
@@ -151,6 +151,7 @@ class Cocircular_polygon_3 {
   Tr& tr_;
   Complex& complex_;
   typename Complex::Pool& pool_;
+  Vertex_star_3<Tr> star_;
   Index facet_ = 0;
   std::vector<std::uint32_t> members_;
   std::vector<Edge> edges_;

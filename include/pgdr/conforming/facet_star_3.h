@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/mesh/territory_3.h>
 
 namespace pgdr {
 
@@ -33,12 +34,17 @@ class Facet_star_3 {
 
   /// Collects the star of p, which lies in `seed` or on one of its edges: on the subsegment `split`, or `none`.
   /// The largest region first; where p does not see all of its boundary, only what p lies in.
-  /// False if even that fails (p is outside the seed's facet, or on a vertex).
-  bool plan(Complex& complex, std::uint32_t seed, const Point& p, std::uint32_t split) {
+  /// False if even that fails (p is outside the seed's facet, or on a vertex), or if the star is not within the territory.
+  bool plan(Complex& complex, std::uint32_t seed, const Point& p, std::uint32_t split, const Territory_3<Tr>& territory) {
+    territory_ = territory;
+    is_foreign_ = !territory.owns(complex.subfacet(seed).vertices);
+    if (is_foreign_) return false;
     facet_ = complex.subfacet(seed).facet;
     split_ = split;
-    return collect(complex, seed, p, true) || collect(complex, seed, p, false);
+    return collect(complex, seed, p, true) || (!is_foreign_ && collect(complex, seed, p, false));
   }
+  /// Whether the last `plan` came to nothing because the star is not own.
+  bool is_foreign() const { return is_foreign_; }
 
   Index facet() const { return facet_; }
   const std::vector<std::uint32_t>& removed() const { return removed_; }
@@ -87,7 +93,8 @@ class Facet_star_3 {
         const Vertex_handle u = t.vertices[(i + 1) % 3], w = t.vertices[(i + 2) % 3];
         const bool grow = all ? open && is_doomed(complex, n, p)
                               : open && complex.orientation(facet_, u->point(), w->point(), p) != CGAL::POSITIVE;
-        if (grow && removed_.size() < max_region) {
+        is_foreign_ |= grow && !territory_.owns(complex.subfacet(n).vertices);
+        if (grow && !is_foreign_ && removed_.size() < max_region) {
           complex.subfacet(n).scratch |= region_bit;
           removed_.push_back(n);
         } else {
@@ -98,7 +105,7 @@ class Facet_star_3 {
     drop_inner_edges(complex);
     for (const std::uint32_t t : removed_)
       complex.subfacet(t).scratch &= static_cast<std::uint8_t>(~region_bit);
-    return sees_all(complex, p);
+    return !is_foreign_ && sees_all(complex, p);
   }
 
   /// A neighbour that joined the region after its edge was noted is no longer outside.
@@ -161,6 +168,8 @@ class Facet_star_3 {
 
   static constexpr std::size_t max_region = 100000;
 
+  Territory_3<Tr> territory_;
+  bool is_foreign_ = false;
   Index facet_ = 0;
   std::uint32_t split_ = Complex::none;
   std::vector<std::uint32_t> removed_;

@@ -10,6 +10,7 @@
 
 #include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
+#include <pgdr/conforming/cavity_search_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/encroached_features_3.h>
 #include <pgdr/conforming/encroachment_3.h>
@@ -50,7 +51,7 @@ class Feature_refiner_3 {
 
   Feature_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
       : tr_(tr), complex_(complex), acute_(acute), split_points_(complex, acute), spacing_(acute, min_edge_length),
-        cavity_(tr), images_(complex, acute.wedges()) {}
+        cavity_(tr), search_(tr, complex, cavity_), images_(complex, acute.wedges()) {}
 
   /// The cavity that this refiner works with, shared with whoever inserts volume points on the same thread.
   Cavity_3<Tr>& cavity() { return cavity_; }
@@ -84,7 +85,9 @@ class Feature_refiner_3 {
     region_ = region;
     near_ = near;
   }
-  const Region_3& region() const { return region_; }
+  /// What may be changed, beside other tasks: everything to begin with. Requests must be for own pieces. A split that
+  /// would change more, or look farther, is `elsewhere`.
+  void set_territory(const Territory_3<Tr>& territory) { cavity_.set_territory(territory); }
   Feature_queues& queues() { return queues_; }
   bool has_subsegments() const { return !queues_.subsegments.empty(); }
   bool is_idle() const { return queues_.empty(); }
@@ -111,11 +114,12 @@ class Feature_refiner_3 {
     const auto& s = complex_.subsegment(slot);
     const Vec_3 a = position(s.vertices[0]), b = position(s.vertices[1]);
     const Vec_3 m = split_points_.of_subsegment(slot);
-    if (!region_.contains(m)) return point_elsewhere(m, complex_.subsegment_id(slot), true);
+    if (!region_.contains(m) || !territory().owns(s.vertices)) return point_elsewhere(m, complex_.subsegment_id(slot), true);
     if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
     if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
     const Point p(m.x, m.y, m.z);
-    if (!cavity_.find(p, seed_for_subsegment(s, p))) return Split_outcome::refused;
+    if (const auto r = search_.from_subsegment(p, s); r != Search_result::found)
+      return r == Search_result::foreign ? point_elsewhere(m, complex_.subsegment_id(slot), true) : Split_outcome::refused;
     if (spacing_.is_too_close(cavity_, m, {1, s.segment}, s.vertices, reason, guard, 0.5 * length(b - a))) return abandon();
 
     features_.gather(complex_, cavity_);
@@ -124,9 +128,10 @@ class Feature_refiner_3 {
     features_.mark_deleted(complex_, true);
     stars_.resize(s.subfacets.size());
     for (std::size_t k = 0; k < s.subfacets.size(); ++k)
-      if (!stars_[k].plan(complex_, s.subfacets[k], p, slot)) {
+      if (!stars_[k].plan(complex_, s.subfacets[k], p, slot, territory())) {
         features_.mark_deleted(complex_, false);
-        return abandon();
+        cavity_.abandon();
+        return stars_[k].is_foreign() ? point_elsewhere(m, complex_.subsegment_id(slot), true) : Split_outcome::refused;
       }
     const Vertex_handle v = commit(p, m, {1, s.segment});
     // Vertices on the shell of one acute corner come as close to each other as the angles there make them; what
@@ -150,14 +155,16 @@ class Feature_refiner_3 {
     if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
     const Point p(m.x, m.y, m.z);
 
-    const Sheet_place at = walk_in_sheet(complex_, slot, p);
+    const Sheet_place at = walk_in_sheet(complex_, slot, p, territory());
+    if (at.is_foreign) return point_elsewhere(m, complex_.subfacet_id(slot), false);
     // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
     const bool yields = reason != Split_reason::flat;
     const auto give_way = [&](std::uint32_t s) {
       return yields ? split_subsegment(s, reason_for_redirect(reason), guard) : Split_outcome::refused;
     };
     if (at.subsegment != Complex::none) return give_way(at.subsegment);
-    if (!find_from_subfacet(at.subfacet, slot, p)) return Split_outcome::refused;
+    if (const auto r = search_.from_subfacet(p, at.subfacet, slot); r != Search_result::found)
+      return r == Search_result::foreign ? point_elsewhere(m, complex_.subfacet_id(slot), false) : Split_outcome::refused;
     features_.gather(complex_, cavity_);
     for (const auto& f : features_.subsegments())
       if (f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p))) {
@@ -169,7 +176,8 @@ class Feature_refiner_3 {
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
       return abandon();
     const Vertex_handle v = insert_on_facet(at.subfacet, p, m);
-    if (v == Vertex_handle()) return Split_outcome::refused;
+    if (v == Vertex_handle())
+      return stars_[0].is_foreign() ? point_elsewhere(m, complex_.subfacet_id(slot), false) : Split_outcome::refused;
     mirror(v, reason);
     return Split_outcome::inserted;
   }
@@ -236,7 +244,7 @@ class Feature_refiner_3 {
   }
 
   /// Does an errand that arrived here; appends what goes on from here to `outgoing`. True if the client, a
-  /// tetrahedron, is to be sent home; its `refused` says what is new.
+  /// tetrahedron, is to be sent home.
   bool run(std::unique_ptr<Errand>& errand) {
     using Client = typename Errand::Client;
     Errand& e = *errand;
@@ -262,7 +270,7 @@ class Feature_refiner_3 {
         complex_.is_live_subfacet(e.request.piece))
       queues_.subfacets.push(e.request);
     if (e.client != Client::tetrahedron) return false;
-    if (outcome == Split_outcome::refused) e.refused.push_back(e.obstacle);
+    e.is_refused = outcome == Split_outcome::refused;
     return true;
   }
 
@@ -326,29 +334,11 @@ class Feature_refiner_3 {
     return reason == Split_reason::missing ? Split_reason::missing : Split_reason::encroached;
   }
 
+  const Territory_3<Tr>& territory() const { return cavity_.territory(); }
+
   Split_outcome abandon() {
     cavity_.abandon();
     return Split_outcome::refused;
-  }
-
-  Cell_handle seed_for_subsegment(const typename Complex::Subsegment& s, const Point& p) const {
-    Cell_handle c;
-    int i, j;
-    if (s.present && tr_.is_edge(s.vertices[0], s.vertices[1], c, i, j)) return c;
-    return tr_.locate(p, s.vertices[0]->cell());
-  }
-
-  /// Finds the cavity of a point of the facet; `at` holds the point, `from` is the subfacet being split.
-  bool find_from_subfacet(std::uint32_t at, std::uint32_t from, const Point& p) {
-    for (const std::uint32_t slot : {at, from}) {
-      const auto& t = complex_.subfacet(slot);
-      Cell_handle c;
-      int i, j, k;
-      if (!t.present || !tr_.is_facet(t.vertices[0], t.vertices[1], t.vertices[2], c, i, j, k)) continue;
-      if (cavity_.find(p, c) || cavity_.find(p, c->neighbor(6 - i - j - k))) return true;
-    }
-    const Cell_handle c = tr_.locate(p, complex_.subfacet(at).vertices[0]->cell());
-    return cavity_.find(p, c);
   }
 
   /// Gives the facets that meet v's at a small dihedral angle, and pass closer to v than other vertices are, a point at the
@@ -367,17 +357,10 @@ class Feature_refiner_3 {
   /// Puts an image on its facet, or sends an errand there. Not where the facet is not, or has a vertex as near as v itself
   /// is, or subsegments are in the way.
   void put_image(const Image& i) {
-    if (!region_.contains(i.at)) {
-      auto errand = std::make_unique<Errand>();
-      errand->by = i.by;
-      errand->facet = i.facet;
-      errand->home = i.at;
-      errand->reason = i.is_usual ? Split_reason::encroached : Split_reason::missing;
-      outgoing_.emplace_back(i.at, std::move(errand));
-      return;
-    }
+    if (!region_.contains(i.at)) return hand_on(i);
     const Point p(i.at.x, i.at.y, i.at.z);
-    if (!cavity_.find(p, tr_.locate(p, i.by->cell()))) return;
+    if (const auto r = search_.from_vertex(p, i.by); r != Search_result::found)
+      return r == Search_result::foreign ? hand_on(i) : void();
     features_.gather(complex_, cavity_);
     const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
     const double radius = i.by->insertion_radius(), near = 0.5 * std::min(radius, length(i.at - position(i.by)));
@@ -393,7 +376,18 @@ class Feature_refiner_3 {
     if (const Vertex_handle v = insert_on_facet(at, p, i.at); v != Vertex_handle()) {
       v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
       images_.add_of(v, made_, i.is_usual);
+    } else if (stars_[0].is_foreign()) {
+      hand_on(i);
     }
+  }
+
+  void hand_on(const Image& i) {
+    auto errand = std::make_unique<Errand>();
+    errand->by = i.by;
+    errand->facet = i.facet;
+    errand->home = i.at;
+    errand->reason = i.is_usual ? Split_reason::encroached : Split_reason::missing;
+    outgoing_.emplace_back(i.at, std::move(errand));
   }
 
   /// Splits the subsegments in the way of an image, which has another try then. False if there are none.
@@ -405,14 +399,19 @@ class Feature_refiner_3 {
     if (way.empty()) return false;
     cavity_.abandon();
     if (i.tries++ == most_tries) return true;
-    bool is_split = false;
+    bool is_split = false, is_elsewhere = false;
     for (const Piece_id& s : way) {
       if (!complex_.is_live_subsegment(s)) continue;
       const Feature_id on{1, complex_.subsegment(s.slot).segment};
       const Split_guard guard{.floor = i.by->insertion_radius(), .reach = spacing_.reach(on, split_points_.of_subsegment(s.slot), i.by)};
-      is_split |= split_subsegment(s.slot, Split_reason::encroached, guard) == Split_outcome::inserted;
+      const Split_outcome outcome = split_subsegment(s.slot, Split_reason::encroached, guard);
+      is_split |= outcome == Split_outcome::inserted;
+      is_elsewhere |= outcome == Split_outcome::elsewhere && !territory().is_everything();
     }
-    if (is_split) images_.add(i);
+    if (is_elsewhere)
+      hand_on(i);
+    else if (is_split)
+      images_.add(i);
     return true;
   }
 
@@ -421,7 +420,7 @@ class Feature_refiner_3 {
   Vertex_handle insert_on_facet(std::uint32_t at, const Point& p, const Vec_3& m) {
     features_.mark_deleted(complex_, true);
     stars_.resize(1);
-    if (!stars_[0].plan(complex_, at, p, Complex::none)) {
+    if (!stars_[0].plan(complex_, at, p, Complex::none, territory())) {
       features_.mark_deleted(complex_, false);
       cavity_.abandon();
       return {};
@@ -444,7 +443,7 @@ class Feature_refiner_3 {
   void finish(Vertex_handle v, const std::array<std::uint32_t, 2>& halves, std::uint32_t split) {
     made_.clear();
     for (const auto& star : stars_) {
-      unmark_survivors(tr_, complex_, star.removed());
+      unmark_survivors(complex_, search_.star(), star.removed());
       star.apply(complex_, pool_, v, halves, made_);
     }
     images_.note_made(made_);
@@ -476,6 +475,7 @@ class Feature_refiner_3 {
   Split_points_3<Tr> split_points_;
   Split_spacing_3<Tr> spacing_;
   Cavity_3<Tr> cavity_;
+  Cavity_search_3<Tr> search_;
   Cavity_features_3<Tr> features_;
   std::vector<Facet_star_3<Tr>> stars_;
   std::vector<std::uint32_t> made_;

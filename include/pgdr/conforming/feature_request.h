@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
-#include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/feature_id.h>
@@ -90,14 +89,13 @@ struct Feature_errand_3 {
   enum class Client : std::uint8_t {
     none,
     subfacet,    ///< `request` is queued again when a point was inserted
-    tetrahedron  ///< `cell` goes back `home`, with `obstacle` among `refused` if nothing was inserted
+    tetrahedron  ///< `cell` goes back `home`
   };
   Client client = Client::none;
   Feature_request request{};
   Cell_id_3<Cell_handle> cell;
   Vec_3 home;
-  Piece_id obstacle;
-  std::vector<Piece_id> refused;
+  bool is_refused = false;  ///< nothing was inserted
   Vertex_handle by{};
   Index facet = 0;
   bool is_image() const { return by != Vertex_handle(); }

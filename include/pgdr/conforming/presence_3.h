@@ -2,15 +2,23 @@
 #ifndef PGDR_CONFORMING_PRESENCE_3_H
 #define PGDR_CONFORMING_PRESENCE_3_H
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/mesh/cavity_3.h>
+#include <pgdr/mesh/vertex_star_3.h>
 
 namespace pgdr {
 
 // Marks of subsegments and subfacets on the cells of the triangulation.
+
+/// Position of the vertex of c that is none of these three, which c has.
+template <class Tr>
+int index_of_fourth(typename Tr::Cell_handle c, const std::array<typename Tr::Vertex_handle, 3>& vertices) {
+  return 6 - c->index(vertices[0]) - c->index(vertices[1]) - c->index(vertices[2]);
+}
 
 /// Marks a facet of the triangulation, on both of its cells.
 template <class Tr>
@@ -79,14 +87,12 @@ bool mark_subfacet(Constraint_complex_3<Tr>& complex, std::uint32_t slot, const 
 
 /// Takes the marks off removed subfacets that the insertion left in the triangulation (rounding only).
 template <class Tr>
-void unmark_survivors(const Tr& tr, Constraint_complex_3<Tr>& complex, const std::vector<std::uint32_t>& removed) {
+void unmark_survivors(Constraint_complex_3<Tr>& complex, Vertex_star_3<Tr>& star, const std::vector<std::uint32_t>& removed) {
   for (const std::uint32_t slot : removed) {
     auto& t = complex.subfacet(slot);
     if (!t.present || t.scratch) continue;
-    typename Tr::Cell_handle c;
-    int i, j, k;
-    if (tr.is_facet(t.vertices[0], t.vertices[1], t.vertices[2], c, i, j, k))
-      mark_facet<Tr>(c, 6 - i - j - k, Constraint_complex_3<Tr>::none);
+    const auto c = star.find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
+    if (c != typename Tr::Cell_handle()) mark_facet<Tr>(c, index_of_fourth<Tr>(c, t.vertices), Constraint_complex_3<Tr>::none);
   }
 }
 

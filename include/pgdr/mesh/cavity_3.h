@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <pgdr/mesh/mesh_triangulation_3.h>
+#include <pgdr/mesh/territory_3.h>
 #include <pgdr/mesh/zone_guard_3.h>
 
 namespace pgdr {
@@ -32,7 +33,14 @@ class Cavity_3 {
   /// Whom to tell about every cell that is touched; null for nobody.
   void set_guard(Zone_guard_3<Tr>* guard) { guard_ = guard; }
 
-  /// Collects C(p) from a cell in conflict with p. False, with nothing marked, if `seed` is not in conflict.
+  /// Where cavities have to be from now on; everywhere to begin with.
+  void set_territory(const Territory_3<Tr>& territory) { territory_ = territory; }
+  const Territory_3<Tr>& territory() const { return territory_; }
+  /// Whether the last `find` came to nothing because the cavity is not own.
+  bool is_foreign() const { return is_foreign_; }
+
+  /// Collects C(p) from a cell in conflict with p. False, with nothing marked, if `seed` is not in conflict, or if the
+  /// cavity is not within the territory.
   /// \pre p is no vertex and not outside the convex hull.
   bool find(const Point& p, Cell_handle seed) {
     return find(p, seed, [](Cell_handle) { return true; });
@@ -43,8 +51,11 @@ class Cavity_3 {
   bool find(const Point& p, Cell_handle seed, const Acceptable& acceptable) {
     cells_.clear();
     boundary_.clear();
-    if (guard_) guard_->touch(seed);
+    is_foreign_ = false;
+    const bool is_own = territory_.owns(seed);
+    if (guard_ && is_own) guard_->touch(seed);
     if (!tr_->in_conflict(seed, p)) return false;
+    if (!is_own) return reject();
     seed->tds_data().mark_in_conflict();
     cells_.push_back(seed);
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -59,6 +70,7 @@ class Cavity_3 {
         if (n->tds_data().is_in_conflict()) continue;
         if (n->tds_data().is_clear()) {
           if (tr_->in_conflict(n, p)) {
+            if (!territory_.owns(n)) return reject();
             n->tds_data().mark_in_conflict();
             cells_.push_back(n);
             continue;
@@ -110,6 +122,7 @@ class Cavity_3 {
     copy_boundary();
     const Vertex_handle v = tr_->tds().create_vertex();
     v->set_point(p);
+    v->set_territory(territory_.number);
     fill_star(v);
     glue_star();
     return v;
@@ -134,6 +147,12 @@ class Cavity_3 {
     std::uint8_t outside_index;
     std::uint8_t apex;
   };
+
+  bool reject() {
+    abandon();
+    is_foreign_ = true;
+    return false;
+  }
 
   void copy_boundary() {
     constexpr std::uint32_t unnumbered = std::numeric_limits<std::uint32_t>::max();
@@ -248,6 +267,8 @@ class Cavity_3 {
 
   Tr* tr_;
   Zone_guard_3<Tr>* guard_ = nullptr;
+  Territory_3<Tr> territory_;
+  bool is_foreign_ = false;
   std::vector<Cell_handle> cells_;
   std::vector<Facet> boundary_;
   std::vector<Face> faces_;

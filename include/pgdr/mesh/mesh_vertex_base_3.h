@@ -3,6 +3,7 @@
 #define PGDR_MESH_MESH_VERTEX_BASE_3_H
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include <CGAL/Triangulation_vertex_base_3.h>
@@ -43,11 +44,17 @@ class Mesh_vertex_base_3 : public Vb {
   std::uint32_t number() const { return number_; }
   void set_number(std::uint32_t n) { number_ = n; }
 
+  /// Number of the territory that the vertex belongs to, see `Territory_3`. Atomic, since its owner may give it away
+  /// while others look whether it is theirs.
+  std::uint16_t territory() const { return std::atomic_ref(territory_).load(std::memory_order_relaxed); }
+  void set_territory(std::uint16_t t) { std::atomic_ref(territory_).store(t, std::memory_order_relaxed); }
+
  private:
   std::uint32_t index_ = none;
   std::uint32_t number_ = none;
   std::array<std::uint32_t, 2> subsegments_{none, none};
   float insertion_radius_ = 0;
+  mutable std::uint16_t territory_ = 0;
   std::uint8_t dimension_ = 3;
 };
 

@@ -3,6 +3,7 @@
 #define PGDR_REFINEMENT_DELAUNAY_LEAF_REFINER_3_H
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -15,6 +16,7 @@
 #include <pgdr/conforming/flat_cell_3.h>
 #include <pgdr/conforming/subdomains_3.h>
 #include <pgdr/refinement/box_scan_3.h>
+#include <pgdr/refinement/divide_worklist_3.h>
 #include <pgdr/refinement/enclosing_ball.h>
 #include <pgdr/refinement/hull_box_3.h>
 #include <pgdr/refinement/leaf_refiner.h>
@@ -51,6 +53,12 @@ class Delaunay_leaf_refiner_3 {
   using Cell_id = typename Worklist::Cell_id;
   using Errand = typename Worklist::Errand;
 
+  /// The active elements of a worklist, divided among territories.
+  struct Division {
+    std::vector<Worklist> parts;
+    std::vector<Region_3> regions;
+  };
+
   /// The scratch memory of one thread.
   class Worker {
    public:
@@ -65,6 +73,8 @@ class Delaunay_leaf_refiner_3 {
     Zone_guard_3<Tr> guard_;
     Leaf_task task_;
     Obstacles_3<Tr> obstacles_;
+    std::vector<Cell_id> ceded_;  ///< unlabelled tetrahedra that are not own any more
+    std::size_t stranded_ = 0;    ///< pieces, as of the last time that some were ceded
   };
 
   Delaunay_leaf_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, const Criteria& criteria,
@@ -121,21 +131,26 @@ class Delaunay_leaf_refiner_3 {
         run_errand(w, list);
         continue;
       }
-      if (task.features_only || !features.stranded().empty()) break;
+      if (task.features_only) break;
+      if (!features.stranded().empty()) {
+        if (task.territory == 0) break;
+        cede_unlabelled(w);
+      }
       // Only now, with every facet whole, is it known again on which side of it a new tetrahedron is.
       mend_subdomains(features);
       if (!features.fresh_cells().empty()) {
         take_fresh_cells(w, list);
         continue;
       }
+      if (result.inserted + features.inserted() - on_features >= task.pause_after) break;
       if (!list.retries_.empty()) {
         const auto errand = list.retries_.pop();
-        if (errand->cell.is_live()) refine(w, errand->cell, errand->refused, list, result);
+        if (errand->cell.is_live()) come_home(w, *errand, list, result);
         continue;
       }
       if (!list.has_active()) break;
       const Cell_id id = list.pop_active();
-      if (id.is_live()) refine(w, id, {}, list, result);
+      if (id.is_live()) refine(w, id, list, result);
     }
     result.inserted += features.inserted() - on_features;
     close(w, list);
@@ -158,6 +173,36 @@ class Delaunay_leaf_refiner_3 {
       case Kind::retry: list.retries_.push(std::move(parcel.errand)); break;
       case Kind::coarse: list.note_coarse(static_cast<double>(parcel.cell.radius)); break;
       case Kind::refused: list.note_refused(parcel.at, parcel.cell); break;
+      case Kind::fresh: list.fresh_.push_back(parcel.cell); break;
+    }
+  }
+
+  /// Divides the active elements of a worklist among territories that can be worked on at once, each by a `drain` with its
+  /// position here plus 1 as territory; none if that is not worth while, or a facet is torn. What belongs to no
+  /// territory stays; another `round` has other borders. \pre nobody else is at work
+  Division divide(Worker& w, Worklist& list, const Leaf_task& task, std::size_t round, unsigned halvings) {
+    constexpr std::array<double, 3> shares{0.5, 0.4, 0.6};
+    Division division;
+    if (list.is_torn()) return division;
+    open(w, task, list);
+    take_fresh_cells(w, list);
+    close(w, list);
+    const std::size_t n = territory_count(list.active(), halvings);
+    if (n == 0) return division;
+    const Territory_map map(sample_vertices(tr_), n, shares[round % shares.size()]);
+    mark_territories(tr_, map);
+    division.parts.resize(n);
+    for (std::size_t k = 0; k < n; ++k) division.regions.push_back(map.region(k));
+    list.divide(division.parts, Territory_of_3<Tr>(complex_));
+    return division;
+  }
+
+  /// Gives back what is left of them.
+  void unite(Worklist& list, std::vector<Worklist>& parts, double target, double outside_target) const {
+    for (Worklist& part : parts) {
+      for (Parcel& parcel : part.outgoing_) receive(list, std::move(parcel), target, outside_target);
+      part.outgoing_.clear();
+      list.take_back(part);
     }
   }
 
@@ -278,12 +323,15 @@ class Delaunay_leaf_refiner_3 {
 
  private:
   static constexpr float upwards = 1.000001f;
+  static constexpr std::size_t most_looks = 64;  ///< for a subsegment in the way, while a cavity is searched
 
   /// Lends the queues of a leaf to a thread, and takes them back.
   void open(Worker& w, const Leaf_task& task, Worklist& list) const {
     w.task_ = task;
+    w.stranded_ = 0;
     Features& f = w.features_;
     f.set_region(task.region, task.near);
+    f.set_territory({task.territory});
     std::swap(f.queues(), list.queues_);
     std::swap(f.stranded(), list.stranded_);
     std::swap(f.fresh_cells(), list.fresh_);
@@ -302,11 +350,13 @@ class Delaunay_leaf_refiner_3 {
       list.outgoing_.push_back({at, Parcel::Kind::errand, {}, std::move(errand)});
     f.outgoing().clear();
     // Torn beyond this task: what is stranded, and what could not be mended because a neighbour is torn.
-    list.torn_ = !f.stranded().empty() || !f.unlabelled_cells().empty();
+    list.torn_ = !f.stranded().empty() || !f.unlabelled_cells().empty() || !w.ceded_.empty();
     std::swap(f.queues(), list.queues_);
     std::swap(f.stranded(), list.stranded_);
     std::swap(f.fresh_cells(), list.fresh_);
     std::swap(f.unlabelled_cells(), list.unlabelled_);
+    list.unlabelled_.insert(list.unlabelled_.end(), w.ceded_.begin(), w.ceded_.end());
+    w.ceded_.clear();
     if (w.task_.tag) {
       f.cavity().set_guard(nullptr);
       w.guard_.close();
@@ -324,7 +374,7 @@ class Delaunay_leaf_refiner_3 {
   /// Puts a tetrahedron on the worklist if it is poor; flat ones on a facet become requests to split that facet.
   void classify(Worker& w, Cell_handle c, Worklist& list) {
     if (c->subdomain() == 0) return classify_outside(w, c, list);
-    if (c->has_subfacet() && is_handed_over(w, c)) return classify_outside(w, c, list);
+    if (c->has_subfacet() && is_handed_over(w, c, list)) return classify_outside(w, c, list);
     const Tetrahedron_ball ball = tetrahedron_ball(position(c->vertex(0)), position(c->vertex(1)),
                                                    position(c->vertex(2)), position(c->vertex(3)));
     const double r = std::sqrt(ball.squared_radius);
@@ -361,68 +411,109 @@ class Delaunay_leaf_refiner_3 {
                                 {c, c->generation(), upwards * static_cast<float>(radius)}, nullptr});
   }
 
-  void give_up(const Cell_id& id, const Vec_3& at, const Tetrahedron_points& corners, Worklist& list,
-               Drain_result& result) const {
-    const float m = upwards * static_cast<float>(enclosing_radius(corners));
-    list.note_refused(at, {id.cell, id.generation, m});
+  /// A tetrahedron that is looked at, and its Steiner point.
+  struct Attempt {
+    Cell_id id;
+    Tetrahedron_points corners;
+    Tetrahedron_ball ball;
+    Vec_3 at;
+
+    Point point() const { return Point(at.x, at.y, at.z); }
+    bool is_outside() const { return id.cell->subdomain() == 0; }
+  };
+
+  Attempt attempt(const Cell_id& id) const {
+    Attempt t{id, tetrahedron_points(id.cell), {}, {}};
+    t.ball = tetrahedron_ball(t.corners);
+    t.at = steiner_point(t.is_outside(), t.ball, t.corners);
+    return t;
+  }
+
+  void give_up(const Attempt& t, Worklist& list, Drain_result& result) const {
+    const float m = upwards * static_cast<float>(enclosing_radius(t.corners));
+    list.note_refused(t.at, {t.id.cell, t.id.generation, m});
     ++result.refused;
   }
 
-  void refine(Worker& w, const Cell_id& id, const std::vector<Piece_id>& refused, Worklist& list,
-              Drain_result& result) {
-    const bool outside = id.cell->subdomain() == 0;
-    if (outside && w.task_.outside_target == std::numeric_limits<double>::infinity()) return;
-    const Tetrahedron_points corners = tetrahedron_points(id.cell);
-    const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    Vec_3 at = steiner_point(outside, ball, corners);
-    if (!w.task_.region.contains(at)) {
-      list.outgoing_.push_back({at, Parcel::Kind::poor, id, nullptr});
-      return;
-    }
-    if (outside) return refine_outside(w, id, at, ball, corners, refused, list, result);
-    if (acute_.balls().protects(at, ball.squared_radius)) return give_up(id, at, corners, list, result);
-    Cavity_3<Tr>& cavity = w.features_.cavity();
-    if (!cavity.find(Point(at.x, at.y, at.z), id.cell)) {
-      // Rounding can put the center of a flat tetrahedron outside of its own ball.
-      const Vec_3 exact = hull_.pull_in(exact_tetrahedron_ball(corners).center, corners);
-      if (!w.task_.region.contains(exact) || !cavity.find(Point(exact.x, exact.y, exact.z), id.cell))
-        return give_up(id, at, corners, list, result);
-      at = exact;
-    }
-    w.features_.features().gather(complex_, cavity);
-    if (w.obstacles_.collect(complex_, w.features_.features(), Point(at.x, at.y, at.z))) {
-      cavity.abandon();
-      return make_room(w, id, at, ball, corners, refused, list, result);
-    }
-    if constexpr (ChoosingPlacement<Placement>) at = best_of_alternatives(w, id.cell, at, ball, corners);
-    insert(w, at, ball, list, result);
+  /// To whom the Steiner point belongs.
+  static void hand_on(const Attempt& t, Worklist& list) {
+    list.outgoing_.push_back({t.at, Parcel::Kind::poor, t.id, nullptr});
   }
 
-  /// Where the placement offers a choice: the point whose star is best. Its cavity is the one that is found then.
-  /// \pre that of `best` is found, and nothing is in its way
-  Vec_3 best_of_alternatives(Worker& w, Cell_handle c, Vec_3 best, const Tetrahedron_ball& ball,
-                             const Tetrahedron_points& corners) const {
-    Point_choice choice;
-    placement_.alternatives(poor_tetrahedron(ball, corners), choice);
-    if (choice.empty()) return best;
+  /// Whether the cavity will hardly be within the territory: there are vertices around the Steiner point at about this distance.
+  static bool is_near_border(const Worker& w, const Attempt& t) {
+    if (w.task_.territory == 0) return false;
+    const double r = std::sqrt(t.ball.squared_radius);
+    const Vec_3 all{r, r, r};
+    return !w.task_.region.contains(t.at - all) || !w.task_.region.contains(t.at + all);
+  }
+
+  /// Inserts the Steiner point of a tetrahedron, or splits what is in the way.
+  void refine(Worker& w, const Cell_id& id, Worklist& list, Drain_result& result) {
+    const bool is_skipped = id.cell->subdomain() == 0 && w.task_.outside_target == std::numeric_limits<double>::infinity();
+    if (is_skipped) return;
+    Attempt t = attempt(id);
+    if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
+    if (t.is_outside()) return refine_outside(w, t, list, result);
+    if (acute_.balls().protects(t.at, t.ball.squared_radius)) return give_up(t, list, result);
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    double best_cosine = worst_cosine(cavity, best);
+    // Cavities can be large, and what is in the way is close, mostly, so that most of the search can be spared.
+    std::size_t looks = 0;
+    std::uint32_t in_the_way = Complex::none;
+    const auto is_clear = [&](Cell_handle c) {
+      return ++looks > most_looks || (in_the_way = subsegment_in_the_way(c, t.point())) == Complex::none;
+    };
+    if (!cavity.find(t.point(), id.cell, is_clear)) {
+      if (cavity.is_foreign()) return hand_on(t, list);
+      if (in_the_way != Complex::none) {
+        w.obstacles_.set_subsegment(complex_, in_the_way);
+        return make_room(w, t, list, result);
+      }
+      // Rounding can put the center of a flat tetrahedron outside of its own ball.
+      t.at = hull_.pull_in(exact_tetrahedron_ball(t.corners).center, t.corners);
+      if (!w.task_.region.contains(t.at)) return give_up(t, list, result);
+      if (!cavity.find(t.point(), id.cell)) return cavity.is_foreign() ? hand_on(t, list) : give_up(t, list, result);
+    }
+    w.features_.features().gather(complex_, cavity);
+    if (w.obstacles_.collect(complex_, w.features_.features(), t.point())) {
+      cavity.abandon();
+      return make_room(w, t, list, result);
+    }
+    if constexpr (ChoosingPlacement<Placement>) choose_point(w, t);
+    insert(w, t, list, result);
+  }
+
+  /// A tetrahedron from an errand that was run elsewhere for its sake.
+  void come_home(Worker& w, const Errand& errand, Worklist& list, Drain_result& result) {
+    if (errand.is_refused)
+      give_up(attempt(errand.cell), list, result);
+    else
+      refine(w, errand.cell, list, result);
+  }
+
+  /// Where the placement offers a choice: takes the point whose star is best. Its cavity is the one that is found then.
+  /// \pre that of the first choice is found, and nothing is in its way
+  void choose_point(Worker& w, Attempt& t) const {
+    Point_choice choice;
+    placement_.alternatives(poor_tetrahedron(t.ball, t.corners), choice);
+    if (choice.empty()) return;
+    Cavity_3<Tr>& cavity = w.features_.cavity();
+    double best_cosine = worst_cosine(cavity, t.at);
     cavity.abandon();
     for (const Vec_3& q : choice) {
       if (!w.task_.region.contains(q) || !hull_.box().contains_closed(q)) continue;
       const Point at(q.x, q.y, q.z);
-      if (!cavity.find(at, c)) continue;
+      if (!cavity.find(at, t.id.cell)) continue;
       w.features_.features().gather(complex_, cavity);
       if (!w.obstacles_.collect(complex_, w.features_.features(), at))
         if (const double cosine = worst_cosine(cavity, q); cosine < best_cosine) {
           best_cosine = cosine;
-          best = q;
+          t.at = q;
         }
       cavity.abandon();
     }
-    cavity.find(Point(best.x, best.y, best.z), c);
+    cavity.find(t.point(), t.id.cell);
     w.features_.features().gather(complex_, cavity);
-    return best;
   }
 
   /// The largest cosine of a dihedral angle in the star of p over the boundary of its cavity.
@@ -436,43 +527,43 @@ class Delaunay_leaf_refiner_3 {
     return worst;
   }
 
-  void refine_outside(Worker& w, const Cell_id& id, const Vec_3& at, const Tetrahedron_ball& ball,
-                      const Tetrahedron_points& corners, const std::vector<Piece_id>& refused, Worklist& list,
-                      Drain_result& result) {
-    switch (find_outside(w, id.cell, at)) {
-      case Obstruction::none: insert(w, at, ball, list, result); break;
-      case Obstruction::splits_anyway: make_room(w, id, at, ball, corners, refused, list, result); break;
-      case Obstruction::stays: give_up(id, at, corners, list, result); break;
+  void refine_outside(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) {
+    switch (find_outside(w, t)) {
+      case Obstruction::none: insert(w, t, list, result); break;
+      case Obstruction::splits_anyway: make_room(w, t, list, result); break;
+      case Obstruction::stays: give_up(t, list, result); break;
+      case Obstruction::foreign: hand_on(t, list); break;
     }
   }
 
-  enum class Obstruction : std::uint8_t { none, splits_anyway, stays };
+  enum class Obstruction : std::uint8_t { none, splits_anyway, stays, foreign };
 
   /// Looks for the cavity of a point outside the domain, and leaves it marked if there is no obstruction.
-  Obstruction find_outside(Worker& w, Cell_handle c, const Vec_3& at) const {
+  Obstruction find_outside(Worker& w, const Attempt& t) const {
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    const Point p(at.x, at.y, at.z);
+    const Point p = t.point();
     std::optional<typename Tr::Facet> encroached;
-    if (!cavity.find(p, c, [&](Cell_handle d) { return !(encroached = encroached_subfacet_of(d, p)); })) {
+    if (!cavity.find(p, t.id.cell, [&](Cell_handle d) { return !(encroached = encroached_subfacet_of(d, p)); })) {
+      if (cavity.is_foreign()) return Obstruction::foreign;
       if (!encroached || !is_split_anyway(*encroached)) return Obstruction::stays;
       w.obstacles_.set_subfacet(complex_, encroached->first->subfacet(encroached->second));
       return Obstruction::splits_anyway;
     }
     w.features_.features().gather(complex_, cavity);
     const bool blocked = w.obstacles_.collect(complex_, w.features_.features(), p);
-    if (!blocked && !is_crowded(w, at)) return Obstruction::none;
+    if (!blocked && !is_crowded(w, t.at)) return Obstruction::none;
     cavity.abandon();
     return blocked && w.obstacles_.keep_subsegments([this](std::uint32_t s) { return is_split_anyway(s); })
                ? Obstruction::splits_anyway
                : Obstruction::stays;
   }
 
-  /// Inserts the Steiner point of the tetrahedron that had this ball. \pre its cavity is found
-  void insert(Worker& w, const Vec_3& at, const Tetrahedron_ball& ball, Worklist& list, Drain_result& result) {
+  /// Inserts the Steiner point. \pre its cavity is found
+  void insert(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) {
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    const Vertex_handle v = cavity.commit(Point(at.x, at.y, at.z));
+    const Vertex_handle v = cavity.commit(t.point());
     v->set_feature(3, Tr::Vertex::none);
-    v->set_insertion_radius(std::sqrt(ball.squared_radius) - length(at - ball.center));
+    v->set_insertion_radius(std::sqrt(t.ball.squared_radius) - length(t.at - t.ball.center));
     list.set_anchor(v);
     ++result.inserted;
     for (const Cell_handle c : cavity.star()) classify(w, c, list);
@@ -497,6 +588,32 @@ class Delaunay_leaf_refiner_3 {
     }
     const Tetrahedron_points corners = tetrahedron_points(c);
     return steiner_point(c->subdomain() == 0, tetrahedron_ball(corners), corners);
+  }
+
+  /// Whether p would delete an edge of c, which is in conflict with it: all cells around the edge are.
+  bool deletes_edge(Cell_handle c, int i, int j, const Point& p) const {
+    auto around = tr_.incident_cells(c, i, j);
+    const auto done = around;
+    while (++around != done)
+      if (!tr_.in_conflict(around, p)) return false;
+    return true;
+  }
+
+  /// A subsegment on the cell, in conflict with p, that p encroaches or would delete; or none.
+  std::uint32_t subsegment_in_the_way(Cell_handle c, const Point& p) const {
+    if (c->subsegment_edges() == 0) return Complex::none;
+    const Vec_3 at = to_vec(p);
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) {
+        if (!(c->subsegment_edges() & edge_bit(i, j))) continue;
+        // Where p does not see it at more than a right angle it does not encroach it; but for rounding, for which the cavity
+        // is looked through again in the end.
+        const bool may_encroach = dot(position(c->vertex(i)) - at, position(c->vertex(j)) - at) <= 0;
+        if (!may_encroach && !deletes_edge(c, i, j, p)) continue;
+        const std::uint32_t s = complex_.find_subsegment(c->vertex(i), c->vertex(j));
+        if (s != Complex::none && (!may_encroach || is_encroached(complex_.subsegment(s), p) || deletes_edge(c, i, j, p))) return s;
+      }
+    return Complex::none;
   }
 
   /// A subfacet on the cell in whose equatorial ball p lies. A point outside the domain lies in one more often than
@@ -535,54 +652,53 @@ class Delaunay_leaf_refiner_3 {
     return w.features_.cavity().squared_insertion_radius(p) < least * least;
   }
 
-  /// Splits an obstacle; the tetrahedron has another try if it is still there.
-  void make_room(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
-                 const Tetrahedron_points& corners, const std::vector<Piece_id>& refused, Worklist& list,
-                 Drain_result& result) const {
-    switch (split_obstacle(w, id, home, ball, corners, refused)) {
-      case Split_outcome::inserted:
-        if (id.is_live()) (id.cell->subdomain() == 0 ? list.active_outside_ : list.active_).push(id);
-        break;
-      case Split_outcome::refused: give_up(id, home, corners, list, result); break;
-      case Split_outcome::elsewhere: break;  // travels with the errand
+  /// Splits the first obstacle; the tetrahedron has another try if it is still there. If that one cannot be
+  /// split there is no room, whatever becomes of the others. An obstacle whose split point lies elsewhere takes the tetrahedron along.
+  void make_room(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) const {
+    Features& features = w.features_;
+    const Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
+    const std::uint32_t slot = w.obstacles_.to_split().front().slot;
+    const bool outside = t.is_outside();
+    const Split_outcome outcome = w.obstacles_.are_subsegments()
+                                      ? features.split_subsegment(slot, Split_reason::encroached, guard)
+                                      : features.split_subfacet(slot, Split_reason::encroached, guard);
+    if (outcome == Split_outcome::refused) return give_up(t, list, result);
+    if (outcome == Split_outcome::inserted) {
+      if (t.id.is_live()) (outside ? list.active_outside_ : list.active_).push(t.id);
+      return;
     }
+    auto errand = std::make_unique<Errand>();
+    errand->piece = features.elsewhere().piece;
+    errand->is_subsegment = features.elsewhere().is_subsegment;
+    errand->guard = guard;
+    errand->client = Errand::Client::tetrahedron;
+    errand->cell = t.id;
+    errand->home = t.at;
+    features.outgoing().emplace_back(features.elsewhere().at, std::move(errand));
   }
 
-  /// Splits the first obstacle that lets itself be split, but for those that are known not to. An obstacle whose split
-  /// point lies in another leaf takes the tetrahedron along.
-  Split_outcome split_obstacle(Worker& w, const Cell_id& id, const Vec_3& home, const Tetrahedron_ball& ball,
-                               const Tetrahedron_points& corners, const std::vector<Piece_id>& refused) const {
-    Features& features = w.features_;
-    const Split_guard guard = split_guard(id.cell, ball, corners, criteria_.is_over_ratio(ball), acute_);
-    const bool segments = w.obstacles_.are_subsegments();
-    for (const Piece_id& piece : w.obstacles_.to_split()) {
-      if (std::any_of(refused.begin(), refused.end(), [&](const Piece_id& r) {
-            return r.slot == piece.slot && r.version == piece.version;
-          }))
-        continue;
-      const Split_outcome outcome = segments
-                                        ? features.split_subsegment(piece.slot, Split_reason::encroached, guard)
-                                        : features.split_subfacet(piece.slot, Split_reason::encroached, guard);
-      if (outcome == Split_outcome::inserted) return outcome;
-      if (outcome == Split_outcome::refused) continue;
-      auto errand = std::make_unique<Errand>();
-      errand->piece = features.elsewhere().piece;
-      errand->is_subsegment = features.elsewhere().is_subsegment;
-      errand->guard = guard;
-      errand->client = Errand::Client::tetrahedron;
-      errand->cell = id;
-      errand->home = home;
-      errand->obstacle = piece;
-      errand->refused = refused;
-      features.outgoing().emplace_back(features.elsewhere().at, std::move(errand));
-      return outcome;
-    }
-    return Split_outcome::refused;
+  /// Where a facet cannot be mended within the territory, gives away the vertices of the tetrahedra made since it was torn:
+  /// nobody touches these then, and the territory goes on around them.
+  void cede_unlabelled(Worker& w) const {
+    Features& f = w.features_;
+    if (f.stranded().size() == std::exchange(w.stranded_, f.stranded().size())) return;
+    for (const Cell_id& id : f.unlabelled_cells())
+      if (id.is_live())
+        for (int i = 0; i < 4; ++i)
+          if (f.cavity().territory().leads_on(id.cell->vertex(i))) id.cell->vertex(i)->set_territory(0);
+    w.ceded_.insert(w.ceded_.end(), f.unlabelled_cells().begin(), f.unlabelled_cells().end());
+    f.unlabelled_cells().clear();
+    f.note_mended();
   }
 
   void take_fresh_cells(Worker& w, Worklist& list) {
     for (const Cell_id& id : w.features_.fresh_cells())
-      if (id.is_live()) classify(w, id.cell, list);
+      if (id.is_live()) {
+        if (w.features_.cavity().territory().owns(id.cell))
+          classify(w, id.cell, list);
+        else
+          list.outgoing_.push_back({position(id.cell->vertex(0)), Parcel::Kind::fresh, id, nullptr});
+      }
     w.features_.fresh_cells().clear();
   }
 
@@ -594,7 +710,7 @@ class Delaunay_leaf_refiner_3 {
 
   /// Gives a flat tetrahedron to the outside if that is what lies beyond its facet; else a point on the facet has to
   /// remove it.
-  bool is_handed_over(Worker& w, Cell_handle c) const {
+  bool is_handed_over(Worker& w, Cell_handle c, Worklist& list) const {
     std::vector<Cell_handle> flat{c};
     while (!flat.empty()) {
       const Cell_handle d = flat.back();
@@ -605,8 +721,14 @@ class Delaunay_leaf_refiner_3 {
         w.features_.request_subfacet(t, Split_reason::flat);
         continue;
       }
-      for (int i = 0; i < 4; ++i)
-        if (d->subfacet(i) != Complex::none && d->neighbor(i)->subdomain() != 0) flat.push_back(d->neighbor(i));
+      for (int i = 0; i < 4; ++i) {
+        const Cell_handle n = d->neighbor(i);
+        if (d->subfacet(i) == Complex::none || n->subdomain() == 0) continue;
+        if (w.features_.cavity().territory().owns(n))
+          flat.push_back(n);
+        else
+          list.outgoing_.push_back({position(c->vertex(0)), Parcel::Kind::fresh, {n, n->generation(), 0}, nullptr});
+      }
     }
     return c->subdomain() == 0;
   }

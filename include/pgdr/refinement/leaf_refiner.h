@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 #include <utility>
 
 #include <pgdr/domain/region_3.h>
@@ -24,8 +25,10 @@ struct Leaf_task {
   double outside_target = std::numeric_limits<double>::infinity();
   bool last = false;  ///< the leaf will not be split any more
   std::size_t quota = std::numeric_limits<std::size_t>::max();  ///< it inserts about this many points at most
+  std::size_t pause_after = std::numeric_limits<std::size_t>::max();  ///< it ends after so many, as soon as no facet is torn
   bool features_only = false;  ///< elements in the volume have to wait: a facet near by is torn
   std::uint16_t tag = 0;       ///< checked runs: names the task among the running ones; 0: no checks
+  std::uint16_t territory = 0;  ///< number of the territory that it has to keep to; 0: everything in the region
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -67,12 +70,15 @@ struct Scan_result {
 /// target, `dispatch` empties a worklist, parcel by parcel, into a sink. `settle` does, alone, what no leaf could do:
 /// it takes it from all worklists that are torn.
 /// `estimate_outside` tells how many points the elements outside the domain ask for at a smaller target.
+/// `divide` hands the active elements of a worklist that is everything out to *territories* (`Territory_3`), parts that `drain`
+/// may work on at once, each with its number, from 1 on, and its region in the task; `unite` takes back what is left of them.
 /// `scan` looks at all elements that meet a box, to tell whether those that are not inside a hole in it have m below a
 /// bound; it only reads.
 template <class R>
 concept LeafRefiner = requires(R refiner, typename R::Worker& worker, typename R::Worklist& list,
                                const typename R::Worklist& const_list, typename R::Parcel parcel,
-                               const Leaf_task& task, const Region_3& box, double number) {
+                               std::vector<typename R::Worklist>& parts, const Leaf_task& task, const Region_3& box,
+                               double number) {
   { const_list.has_work() } -> std::convertible_to<bool>;
   { const_list.active() } -> std::convertible_to<std::size_t>;
   { const_list.deferred() } -> std::convertible_to<std::size_t>;
@@ -87,6 +93,9 @@ concept LeafRefiner = requires(R refiner, typename R::Worker& worker, typename R
   { refiner.activate(list, number, number) };
   { refiner.estimate(const_list) } -> std::same_as<Work_estimate>;
   { refiner.estimate_outside(const_list, number) } -> std::convertible_to<double>;
+  { refiner.divide(worker, list, task, std::size_t{}, unsigned{}).parts[0] } -> std::convertible_to<typename R::Worklist&>;
+  { refiner.divide(worker, list, task, std::size_t{}, unsigned{}).regions[0] } -> std::convertible_to<Region_3>;
+  { refiner.unite(list, parts, number, number) };
   { refiner.scan(box, box, number, const_list) } -> std::same_as<Scan_result>;
   { list.reset_coarsest(number) };
 };

@@ -25,7 +25,8 @@ struct Leaf_parcel_3 {
     errand,  ///< a feature with its split point at `at`
     retry,   ///< a tetrahedron that comes home from an errand
     coarse,  ///< no work: an element of radius `cell.radius` that is fine as it is
-    refused  ///< no work: one that was given up
+    refused, ///< no work: one that was given up
+    fresh    ///< a tetrahedron to be looked at anew
   };
   Vec_3 at;
   Kind kind = Kind::poor;
@@ -111,6 +112,57 @@ class Leaf_worklist_3 {
     from.torn_ = false;
     torn_ = true;
     if (anchor_ == Vertex_handle()) anchor_ = from.anchor_;
+  }
+
+  /// Hands live active elements out: `number_of` tells for a tetrahedron, an errand or a request, and whether that is for a
+  /// subsegment, the number of a part, from 1 on, 0 for what stays, or `dead` for what is not needed any more.
+  /// \pre nothing is torn or fresh
+  template <class Number_of>
+  void divide(std::vector<Leaf_worklist_3>& parts, const Number_of& number_of) {
+    const auto hand_out = [&](const auto& queue_of, const auto&... more) {
+      auto& queue = queue_of(*this);
+      for (std::size_t n = queue.size(); n > 0; --n) {
+        auto item = queue.pop();
+        const std::uint16_t k = number_of(item, more...);
+        if (k != dead) queue_of(k == 0 ? *this : parts[k - 1u]).push(std::move(item));
+      }
+    };
+    hand_out([](auto& list) -> auto& { return list.active_; });
+    hand_out([](auto& list) -> auto& { return list.active_outside_; });
+    hand_out([](auto& list) -> auto& { return list.errands_; });
+    hand_out([](auto& list) -> auto& { return list.retries_; }, true);
+    hand_out([](auto& list) -> auto& { return list.queues_.subsegments; }, true);
+    hand_out([](auto& list) -> auto& { return list.queues_.subfacets; }, false);
+    for (Leaf_worklist_3& part : parts) part.anchor_ = anchor_;
+  }
+
+  static constexpr std::uint16_t dead = 0xffff;
+
+  /// Takes over all that another worklist has left. \pre it has no outgoing parcels
+  void take_back(Leaf_worklist_3& part) {
+    const auto append = [](auto& to, auto& from) {
+      to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+      from = {};
+    };
+    const auto move = [](auto& to, auto& from) {
+      while (!from.empty()) to.push(from.pop());
+    };
+    move(active_, part.active_);
+    move(active_outside_, part.active_outside_);
+    append(deferred_, part.deferred_);
+    append(outside_, part.outside_);
+    move(errands_, part.errands_);
+    move(retries_, part.retries_);
+    move(queues_.subsegments, part.queues_.subsegments);
+    move(queues_.subfacets, part.queues_.subfacets);
+    move(stranded_.subsegments, part.stranded_.subsegments);
+    move(stranded_.subfacets, part.stranded_.subfacets);
+    append(fresh_, part.fresh_);
+    append(unlabelled_, part.unlabelled_);
+    append(refused_, part.refused_);
+    coarsest_ = std::max(coarsest_, part.coarsest_);
+    largest_refused_ = std::max(largest_refused_, part.largest_refused_);
+    torn_ |= part.torn_;
   }
 
   void release_memory() {

@@ -41,7 +41,11 @@ class Obstacles_3 {
     return !subsegments_.empty() || !subfacets_.empty();
   }
 
-  /// Takes one subfacet for the only obstacle.
+  /// Takes one subsegment or subfacet for the only obstacle.
+  void set_subsegment(const Complex& complex, std::uint32_t slot) {
+    subfacets_.clear();
+    subsegments_.assign(1, complex.subsegment_id(slot));
+  }
   void set_subfacet(const Complex& complex, std::uint32_t slot) {
     subsegments_.clear();
     subfacets_.assign(1, complex.subfacet_id(slot));

@@ -18,7 +18,7 @@ struct Epoch_statistics {
   std::size_t active = 0;       ///< elements above their leaf's target at the start
   std::size_t deferred = 0;     ///< elements left for smaller leaves at the end
   std::size_t inserted = 0;     ///< points
-  std::size_t inserted_alone = 0;  ///< points inserted while only one leaf could be worked on
+  std::size_t inserted_alone = 0;  ///< points inserted while only one task could be worked on
   double seconds = 0;           ///< wall time
   double serial_seconds = 0;    ///< of them neither in leaf tasks nor in parallel loops
 };
@@ -32,6 +32,7 @@ struct Task_record {
   std::uint32_t x = 0, y = 0, z = 0;
   std::uint32_t epoch = 0, wave = 0;  ///< waves are numbered through the epochs
   std::uint32_t inserted = 0;
+  std::uint16_t territory = 0;        ///< not 0: beside other tasks on the same leaf
   const char* name = "leaf";
   double start = 0;    ///< seconds since the refinement began
   double seconds = 0;

@@ -21,6 +21,7 @@
 #include <pgdr/octree/linear_octree_3.h>
 #include <pgdr/parameters.h>
 #include <pgdr/report/schedule_statistics.h>
+#include <pgdr/schedule/divided_work.h>
 #include <pgdr/schedule/leaf_table.h>
 #include <pgdr/schedule/split_decision.h>
 #include <pgdr/schedule/task_graph.h>
@@ -116,6 +117,7 @@ class Epoch_scheduler {
 
   void start_epoch() {
     finish_epoch();
+    divided_.start_epoch();
     const double begin = recorder_.now();
     Epoch_statistics epoch;
     epoch.leaves = leaves_.size();
@@ -130,6 +132,7 @@ class Epoch_scheduler {
     for (const Leaf& leaf : leaves_) statistics_.epochs.back().active += leaf.work.active();
     recorder_.section("targets", true, begin);
   }
+
 
   void finish_epoch() {
     if (statistics_.epochs.empty() || epoch_start_ < 0) return;
@@ -211,8 +214,11 @@ class Epoch_scheduler {
     results_.assign(runnable_.size(), {});
     if (runnable_.size() == 1) {
       recorder_.section("wave", false, begin);
-      run_leaf(0, quota);
-      epoch.most_ready = std::max<std::size_t>(epoch.most_ready, 1);
+      if (!run_divided(quota)) {
+        run_leaf(0, quota);
+        epoch.inserted_alone += results_[0].inserted;
+        epoch.most_ready = std::max<std::size_t>(epoch.most_ready, 1);
+      }
     } else {
       run_graph(begin, quota);
     }
@@ -223,7 +229,6 @@ class Epoch_scheduler {
       refused_ += r.refused;
     }
     epoch.inserted += inserted;
-    if (runnable_.size() == 1) epoch.inserted_alone += inserted;
     vertices_ += inserted;
     if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) stopped_ = true;
     ++wave_;
@@ -262,6 +267,37 @@ class Epoch_scheduler {
     }
   }
 
+  /// Whether the only leaf's work may be divided; the paper's octree is left as the paper has it.
+  bool is_divisible() const { return leaves_.size() == 1 && parameters_.octree_depth == 0; }
+
+  /// Where one leaf is everything: its work, divided. False if that is not worth while.
+  bool run_divided(std::size_t quota) {
+    if (!is_divisible()) return false;
+    Leaf_task task;
+    task.target = leaves_[0].target;
+    task.outside_target = outside_target(leaves_[0]);
+    task.last = leaves_[0].final;
+    task.quota = quota;
+    task.cancel = parameters_.cancel;
+    const auto round = divided_.run(engine_, *workers_[0], leaves_[0].work, task, recorder_, [&](Worklist& part, Leaf_task mine) {
+      const double start = recorder_.now();
+      if (parameters_.check_zones) mine.tag = thread_tag();
+      const Drain_result result = engine_.drain(worker(), mine, part);
+      recorder_.leaf(octree_[0], mine.territory, statistics_.epochs.size() - 1, wave_, result.inserted, start);
+      return result;
+    });
+    if (!round) return false;
+    results_[0] = round->result;
+    Epoch_statistics& epoch = statistics_.epochs.back();
+    epoch.most_ready = std::max(epoch.most_ready, round->tasks);
+    epoch.tasks += round->tasks - 1;
+    return true;
+  }
+
+  std::uint16_t thread_tag() const {
+    return static_cast<std::uint16_t>(std::max(tbb::this_task_arena::current_thread_index(), 0) + 1);
+  }
+
   /// The k-th runnable leaf: gathers what came for it, works, and leaves what belongs to others in its outbox.
   void run_leaf(std::size_t k, std::size_t quota) {
     const double begin = recorder_.now();
@@ -280,11 +316,11 @@ class Epoch_scheduler {
     task.cancel = parameters_.cancel;
     task.features_only = std::any_of(leaf.touching.begin(), leaf.touching.end(),
                                      [this](std::uint32_t n) { return leaves_[n].work.is_torn(); });
-    const int thread = std::max(tbb::this_task_arena::current_thread_index(), 0);
-    if (parameters_.check_zones) task.tag = static_cast<std::uint16_t>(thread + 1);
+    if (is_divisible()) task.pause_after = Divided_work<Engine>::most_alone;
+    if (parameters_.check_zones) task.tag = thread_tag();
     results_[k] = engine_.drain(worker(), task, leaf.work);
     post(leaf.work, i);
-    recorder_.leaf(octree_[i], statistics_.epochs.size() - 1, wave_, results_[k].inserted, begin);
+    recorder_.leaf(octree_[i], 0, statistics_.epochs.size() - 1, wave_, results_[k].inserted, begin);
   }
 
   void gather(std::uint32_t i) {
@@ -440,6 +476,7 @@ class Epoch_scheduler {
   std::vector<Leaf> leaves_;
   std::vector<std::unique_ptr<Worker>> workers_;
   Task_recorder recorder_;
+  Divided_work<Engine> divided_;
   Schedule_statistics statistics_;
   std::vector<std::uint32_t> runnable_;
   std::vector<std::uint32_t> node_of_;

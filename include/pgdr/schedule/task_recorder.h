@@ -25,9 +25,10 @@ class Task_recorder {
 
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  void leaf(const Octree_key& key, std::size_t epoch, std::size_t wave, std::size_t inserted, double begin) {
+  void leaf(const Octree_key& key, std::uint16_t territory, std::size_t epoch, std::size_t wave, std::size_t inserted, double begin) {
     if (!keep_) return;
     Task_record r;
+    r.territory = territory;
     r.level = key.level;
     r.x = key.x;
     r.y = key.y;

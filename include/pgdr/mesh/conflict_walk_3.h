@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_MESH_CONFLICT_WALK_3_H
+#define PGDR_MESH_CONFLICT_WALK_3_H
+
+#include <pgdr/mesh/territory_3.h>
+
+namespace pgdr {
+
+/// Walks from an own vertex towards p to a tetrahedron in conflict with p; none if the way leads out of the territory.
+///
+/// A visibility walk, which ends in every Delaunay triangulation. \pre p is not outside the convex hull.
+template <class Tr>
+typename Tr::Cell_handle walk_to_conflict(const Tr& tr, const Territory_3<Tr>& territory, typename Tr::Vertex_handle from,
+                                          const typename Tr::Point& p) {
+  using Cell_handle = typename Tr::Cell_handle;
+  const auto orientation = tr.geom_traits().orientation_3_object();
+  Cell_handle c = from->cell(), before = {};
+  if (tr.is_infinite(c)) c = c->neighbor(c->index(tr.infinite_vertex()));
+  while (true) {
+    if (tr.in_conflict(c, p)) return c;
+    if (tr.is_infinite(c)) return {};
+    int way = -1;
+    for (int i = 0; i < 4 && way < 0; ++i) {
+      if (c->neighbor(i) == before) continue;
+      const typename Tr::Point* corners[4];
+      for (int j = 0; j < 4; ++j) corners[j] = j == i ? &p : &c->vertex(j)->point();
+      if (orientation(*corners[0], *corners[1], *corners[2], *corners[3]) == CGAL::NEGATIVE) way = i;
+    }
+    if (way < 0 || !territory.leads_on(c, way)) return {};
+    before = c;
+    c = c->neighbor(way);
+  }
+}
+
+}  // namespace pgdr
+
+#endif

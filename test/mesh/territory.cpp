@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/mesh/territory_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <pgdr/domain/default_kernel.h>
+#include <pgdr/mesh/cavity_3.h>
+#include <pgdr/mesh/conflict_walk_3.h>
+#include <pgdr/mesh/vertex_star_3.h>
+
+#include "catch.h"
+#include "seeded_random.h"
+
+using namespace pgdr_test;
+
+namespace {
+
+using Tr = pgdr::Mesh_triangulation_3<pgdr::Default_kernel>;
+using Point = Tr::Point;
+using Cell_handle = Tr::Cell_handle;
+using Vertex_handle = Tr::Vertex_handle;
+using Territory = pgdr::Territory_3<Tr>;
+
+constexpr std::uint16_t count = 4;
+
+/// Random points in the cube from 0 to 1, its corners included, in territories side by side along x.
+struct Divided {
+  explicit Divided(unsigned seed) : random(seed) {
+    for (int k = 0; k < 8; ++k) tr.insert(Point(k & 1, k & 2 ? 1 : 0, k & 4 ? 1 : 0));
+    for (int k = 0; k < 2000; ++k) tr.insert(inside());
+    for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v)
+      v->set_territory(std::min<std::uint16_t>(count, static_cast<std::uint16_t>(1 + count * v->point().x())));
+    tr.infinite_vertex()->set_territory(Territory::everybody);
+  }
+
+  Point inside() { return Point(random.between(0, 1), random.between(0, 1), random.between(0, 1)); }
+
+  Tr tr;
+  Seeded_random random;
+};
+
+}  // namespace
+
+TEST_CASE("No tetrahedron has facets of two territories, not even an infinite one", "[mesh]") {
+  Divided d(1);
+  std::size_t mixed = 0;
+  for (auto c = d.tr.all_cells_begin(); c != d.tr.all_cells_end(); ++c) {
+    int owners = 0, own_cells = 0;
+    for (std::uint16_t t = 1; t <= count; ++t) {
+      const Territory territory{t};
+      bool owns_a_facet = false;
+      for (int i = 0; i < 4; ++i) {
+        bool all = true;
+        for (int j = 0; j < 4; ++j) all = all && (j == i || territory.owns(c->vertex(j)));
+        owns_a_facet = owns_a_facet || all;
+      }
+      owners += owns_a_facet;
+      own_cells += territory.owns(Cell_handle(c));
+    }
+    CHECK(owners <= 1);
+    CHECK(own_cells <= owners);
+    mixed += own_cells == 0;
+  }
+  CHECK(mixed > 100);
+}
+
+TEST_CASE("A cavity is found exactly if it is within the territory, and leaves no marks otherwise", "[mesh]") {
+  Divided d(2);
+  std::size_t own = 0, foreign = 0;
+  for (int k = 0; k < 500; ++k) {
+    const Point p = d.inside();
+    const Cell_handle seed = d.tr.locate(p);
+    pgdr::Cavity_3<Tr> whole(d.tr);
+    REQUIRE(whole.find(p, seed));
+    const std::vector<Cell_handle> cells = whole.cells();
+    whole.abandon();
+    for (std::uint16_t t = 1; t <= count; ++t) {
+      const Territory territory{t};
+      bool is_own = true;
+      for (const Cell_handle c : cells) is_own = is_own && territory.owns(c);
+      pgdr::Cavity_3<Tr> cavity(d.tr);
+      cavity.set_territory(territory);
+      CHECK(cavity.find(p, seed) == is_own);
+      CHECK(cavity.is_foreign() == !is_own);
+      if (is_own) {
+        CHECK(cavity.cells() == cells);
+        cavity.abandon();
+      }
+      own += is_own;
+      foreign += !is_own;
+    }
+  }
+  CHECK(own > 100);
+  CHECK(foreign > 100);
+  for (auto c = d.tr.all_cells_begin(); c != d.tr.all_cells_end(); ++c) CHECK(c->tds_data().is_clear());
+}
+
+TEST_CASE("Cells outside the ball of a point are not foreign, but not in conflict", "[mesh]") {
+  Divided d(3);
+  pgdr::Cavity_3<Tr> cavity(d.tr);
+  cavity.set_territory({1});
+  CHECK_FALSE(cavity.find(Point(0.1, 0.5, 0.5), d.tr.locate(Point(0.9, 0.5, 0.5))));
+  CHECK_FALSE(cavity.is_foreign());
+}
+
+TEST_CASE("New vertices belong to the territory of the task that inserts them", "[mesh]") {
+  Divided d(4);
+  pgdr::Cavity_3<Tr> cavity(d.tr);
+  cavity.set_territory({2});
+  const Point p(0.375, 0.5, 0.5);
+  REQUIRE(cavity.find(p, d.tr.locate(p)));
+  CHECK(cavity.commit(p)->territory() == 2);
+  for (const Cell_handle c : cavity.star()) CHECK(Territory{2}.owns(c));
+  CHECK(d.tr.is_valid());
+}
+
+TEST_CASE("A walk finds a tetrahedron in conflict, and does not leave its territory", "[mesh]") {
+  Divided d(5);
+  std::vector<Vertex_handle> vertices;
+  for (auto v = d.tr.finite_vertices_begin(); v != d.tr.finite_vertices_end(); ++v) vertices.push_back(v);
+  std::size_t found = 0, left = 0;
+  for (std::size_t k = 0; k < vertices.size(); k += 3) {
+    const Point p = d.inside();
+    // Alone, it always arrives.
+    const Cell_handle c = pgdr::walk_to_conflict(d.tr, Territory{}, vertices[k], p);
+    REQUIRE(c != Cell_handle());
+    CHECK(d.tr.in_conflict(c, p));
+    const Territory own{vertices[k]->territory()};
+    const Cell_handle e = pgdr::walk_to_conflict(d.tr, own, vertices[k], p);
+    if (e == Cell_handle()) {
+      ++left;
+      continue;
+    }
+    ++found;
+    CHECK(d.tr.in_conflict(e, p));
+    bool has_own = false;
+    for (int i = 0; i < 4; ++i) has_own = has_own || own.leads_on(e->vertex(i));
+    CHECK(has_own);
+  }
+  CHECK(found > 50);
+  CHECK(left > 50);
+}
+
+TEST_CASE("Edges and triangles are found as CGAL finds them, without marks", "[mesh]") {
+  Divided d(6);
+  pgdr::Vertex_star_3<Tr> star;
+  std::size_t there = 0, missing = 0;
+  std::vector<Vertex_handle> vertices;
+  for (auto v = d.tr.finite_vertices_begin(); v != d.tr.finite_vertices_end(); ++v) vertices.push_back(v);
+  const auto check = [&](Vertex_handle u, Vertex_handle v, Vertex_handle w) {
+    Cell_handle c;
+    int i, j, k;
+    const Cell_handle edge = d.tr.is_edge(u, v, c, i, j) ? c : Cell_handle();
+    CHECK(star.find_edge(u, v) == edge);
+    const Cell_handle facet = d.tr.is_facet(u, v, w, c, i, j, k) ? c : Cell_handle();
+    CHECK(star.find_facet(u, v, w) == facet);
+    ++(facet == Cell_handle() ? missing : there);
+  };
+  for (auto f = d.tr.finite_facets_begin(); f != d.tr.finite_facets_end(); ++f)
+    check(f->first->vertex((f->second + 1) % 4), f->first->vertex((f->second + 2) % 4), f->first->vertex((f->second + 3) % 4));
+  for (std::size_t k = 2; k < vertices.size(); ++k) check(vertices[k], vertices[k - 1], vertices[k - 2]);
+  // A vertex with many cells around it makes the table grow.
+  check(d.tr.infinite_vertex(), vertices[0], vertices[1]);
+  CHECK(there > 1000);
+  CHECK(missing > 1000);
+}
