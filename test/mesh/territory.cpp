@@ -144,6 +144,17 @@ TEST_CASE("A walk finds a tetrahedron in conflict, and does not leave its territ
   CHECK(left > 50);
 }
 
+TEST_CASE("A walk to where a vertex is ends at it", "[mesh]") {
+  Divided d(8);
+  const auto from = d.tr.finite_vertices_begin();
+  for (auto v = d.tr.finite_vertices_begin(); v != d.tr.finite_vertices_end(); ++v) {
+    const Cell_handle c = pgdr::walk_to_conflict(d.tr, Territory{}, Vertex_handle(from), v->point());
+    REQUIRE(c != Cell_handle());
+    CHECK(c->has_vertex(v));
+    CHECK(pgdr::has_vertex_at(d.tr, c, v->point()));
+  }
+}
+
 TEST_CASE("Edges and triangles are found as CGAL finds them, without marks", "[mesh]") {
   Divided d(6);
   pgdr::Vertex_star_3<Tr> star;

@@ -31,6 +31,7 @@ class Cavity_search_3 {
   Cavity_search_3(const Tr& tr, const Complex& complex, Cavity_3<Tr>& cavity) : tr_(tr), complex_(complex), cavity_(cavity) {}
 
   Search_result from_cell(const Point& p, Cell_handle c) {
+    if (has_vertex_at(tr_, c, p)) return Search_result::nothing;
     if (cavity_.find(p, c)) return Search_result::found;
     return cavity_.is_foreign() ? Search_result::foreign : Search_result::nothing;
   }

@@ -6,7 +6,16 @@
 
 namespace pgdr {
 
-/// Walks from an own vertex towards p to a tetrahedron in conflict with p; none if the way leads out of the territory.
+/// Whether p is where a vertex of c is; such a point is in conflict with nothing.
+template <class Tr>
+bool has_vertex_at(const Tr& tr, typename Tr::Cell_handle c, const typename Tr::Point& p) {
+  for (int i = 0; i < 4; ++i)
+    if (c->vertex(i) != tr.infinite_vertex() && c->vertex(i)->point() == p) return true;
+  return false;
+}
+
+/// Walks from an own vertex towards p to a tetrahedron in conflict with p, or with a vertex there; none if the way leads out
+/// of the territory.
 ///
 /// A visibility walk, which ends in every Delaunay triangulation. \pre p is not outside the convex hull.
 template <class Tr>
@@ -17,7 +26,7 @@ typename Tr::Cell_handle walk_to_conflict(const Tr& tr, const Territory_3<Tr>& t
   Cell_handle c = from->cell(), before = {};
   if (tr.is_infinite(c)) c = c->neighbor(c->index(tr.infinite_vertex()));
   while (true) {
-    if (tr.in_conflict(c, p)) return c;
+    if (has_vertex_at(tr, c, p) || tr.in_conflict(c, p)) return c;
     if (tr.is_infinite(c)) return {};
     int way = -1;
     for (int i = 0; i < 4 && way < 0; ++i) {
