@@ -3,7 +3,7 @@
 """Meshes small random PLCs that are hard on a mesher, by quality alone, and checks the meshes.
 
 Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only,
-dented hulls of random points; some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the
+dented hulls of random points, balls with regular folds; some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the
 numbers of those that did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that
 the failure does not need.
 
@@ -21,7 +21,7 @@ from pathlib import Path
 
 from measure import ROOT, attempt, table
 
-KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull")
+KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball")
 
 
 def _box(points, facets, half):
@@ -164,6 +164,23 @@ def _hull(rng, points, facets):
             points.append(tuple(t * middle[c] + (1 - t) * sum(cloud[i][c] for i in f) / 3 for c in range(3)))
             facets += [[first + f[i], first + f[(i + 1) % 3], len(points) - 1] for i in range(3)]
     _box(points, facets, 1)
+
+
+def _ball(rng, points, facets):
+    """A ball of triangles, every other vertex pulled towards the center: symmetric, with many like distances."""
+    around, along = 2 * rng.randint(3, 10), rng.randint(4, 10)
+    pull = rng.uniform(0, 0.6)
+    points += [(0, 0, -1), (0, 0, 1)]
+    for i in range(1, along):
+        for j in range(around):
+            a, b = math.pi * i / along, 2 * math.pi * (j + i / 2) / around
+            r = 1 - pull * ((i + j) % 2)
+            points.append((r * math.sin(a) * math.cos(b), r * math.sin(a) * math.sin(b), -r * math.cos(a)))
+    for j in range(around):
+        ring = [[2 + i * around + (j + k) % around for k in range(2)] for i in range(along - 1)]
+        facets += [[0, ring[0][1], ring[0][0]], [1, ring[-1][0], ring[-1][1]]]
+        for (a, b), (c, d) in zip(ring, ring[1:]):
+            facets += [[a, b, c], [b, d, c]]
 
 
 def _side(a, b, c, p):

@@ -21,6 +21,8 @@ namespace pgdr {
 struct Piece_id {
   std::uint32_t slot = 0xffffffffu;
   std::uint32_t version = 0;
+
+  friend bool operator==(const Piece_id&, const Piece_id&) = default;
 };
 
 /// Counts the uses of a slot, odd while it is in use. Atomic, since a distant task may reuse the slot while somebody

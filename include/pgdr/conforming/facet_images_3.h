@@ -8,6 +8,7 @@
 
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/encroachment_3.h>
 #include <pgdr/conforming/facet_wedges_3.h>
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/sheet_walk_3.h>
@@ -53,6 +54,13 @@ class Facet_images_3 {
         });
   }
 
+  /// Whether a point m put on this facet at this distance from other vertices would have images, wherever these are.
+  bool has_images(Index facet, const Vec_3& m, double radius) const {
+    bool found = false;
+    wedges_.for_each_image(facet, m, radius, true, [&](const Mirror_image&) { found = true; });
+    return found;
+  }
+
   /// Keeps track of where each facet is from now on, for images on facets that are torn. Only for one that is alone at work,
   /// and tells of all subfacets that it makes.
   void find_facets() {
@@ -81,6 +89,26 @@ class Facet_images_3 {
       if (r.reason == Split_reason::missing && complex_.is_live_subfacet(r.piece) && holds(r.piece.slot))
         return r.piece.slot;
     return Complex::none;
+  }
+
+  /// The subsegments that have to be split before an image's point p is put on the subfacet `at`. A segment's point does not mind
+  /// what it encroaches; neither does its image, unless that is nearer than `near`.
+  std::vector<Piece_id> in_the_way(const Image& i, const Point& p, double near, const Cavity_features_3<Tr>& cavity,
+                                   std::uint32_t at) const {
+    const auto is_on_line = [&](std::uint32_t slot, double distance) {
+      const auto& s = complex_.subsegment(slot);
+      return squared_distance_to_line(i.at, position(s.vertices[0]), position(s.vertices[1])) < distance * distance;
+    };
+    std::vector<Piece_id> way;
+    for (const auto& f : cavity.subsegments())
+      if (f.deleted || (is_encroached(complex_.subsegment(f.slot), p) && (i.by->in_dimension() == 2 || is_on_line(f.slot, near))))
+        way.push_back(complex_.subsegment_id(f.slot));
+    // A missing one is in no cavity. With the image where it has to be split it could never be recovered.
+    for (const std::uint32_t side : complex_.subfacet(at).neighbors) {
+      const std::uint32_t s = side & ~Complex::subsegment_bit;
+      if (s != side && !complex_.subsegment(s).present && is_on_line(s, 0.1 * near)) way.push_back(complex_.subsegment_id(s));
+    }
+    return way;
   }
 
  private:

@@ -114,7 +114,9 @@ class Feature_refiner_3 {
     const auto& s = complex_.subsegment(slot);
     const Vec_3 a = position(s.vertices[0]), b = position(s.vertices[1]);
     const Vec_3 m = split_points_.of_subsegment(slot);
-    if (!region_.contains(m) || !territory().owns(s.vertices)) return point_elsewhere(m, complex_.subsegment_id(slot), true);
+    const auto is_to_be_alone = [&](std::uint32_t t) { return needs_to_be_alone(complex_.subfacet(t).facet, m, 0.5 * length(b - a)); };
+    if (!region_.contains(m) || !territory().owns(s.vertices) || std::ranges::any_of(s.subfacets, is_to_be_alone))
+      return point_elsewhere(m, complex_.subsegment_id(slot), true);
     if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
     if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
     const Point p(m.x, m.y, m.z);
@@ -151,7 +153,8 @@ class Feature_refiner_3 {
     const Vec_3 m = split_points_.of_subfacet(slot, reason);
     if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
     if (reason == Split_reason::encroached && split_points_.is_subfacet_protected(slot)) return Split_outcome::refused;
-    if (!region_.contains(m)) return point_elsewhere(m, complex_.subfacet_id(slot), false);
+    if (!region_.contains(m) || needs_to_be_alone(t.facet, m, length(m - position(t.vertices[0]))))
+      return point_elsewhere(m, complex_.subfacet_id(slot), false);
     if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
     const Point p(m.x, m.y, m.z);
 
@@ -270,7 +273,7 @@ class Feature_refiner_3 {
         complex_.is_live_subfacet(e.request.piece))
       queues_.subfacets.push(e.request);
     if (e.client != Client::tetrahedron) return false;
-    e.is_refused = outcome == Split_outcome::refused;
+    if (outcome == Split_outcome::refused) e.refused.push_back(e.obstacle);
     return true;
   }
 
@@ -299,6 +302,12 @@ class Feature_refiner_3 {
   Split_outcome point_elsewhere(const Vec_3& at, Piece_id piece, bool is_subsegment) {
     elsewhere_ = {at, piece, is_subsegment};
     return Split_outcome::elsewhere;
+  }
+
+  /// Whether a point has images that may lie in another territory. They have to be there before anything else is: facets that
+  /// meet at a small angle and get points at unlike places give each other ever more of them.
+  bool needs_to_be_alone(Index facet, const Vec_3& m, double radius) const {
+    return !territory().is_everything() && images_.has_images(facet, m, radius);
   }
 
   bool is_near(const auto& vertices) const {
@@ -365,14 +374,9 @@ class Feature_refiner_3 {
     const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
     const double radius = i.by->insertion_radius(), near = 0.5 * std::min(radius, length(i.at - position(i.by)));
     const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.facet); };
-    // A segment's point does not mind what it encroaches; neither does its image, unless that is nearer than vertices may be.
-    const auto is_in_the_way = [&](const auto& f) {
-      const auto& s = complex_.subsegment(f.slot);
-      const double d2 = squared_distance_to_line(i.at, position(s.vertices[0]), position(s.vertices[1]));
-      return f.deleted || (is_encroached(s, p) && (i.by->in_dimension() == 2 || d2 < near * near));
-    };
     if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near) return cavity_.abandon();
-    if (make_way(i, is_in_the_way)) return;
+    const std::vector<Piece_id> way = images_.in_the_way(i, p, near, features_, at);
+    if (!way.empty()) return make_way(i, way);
     if (const Vertex_handle v = insert_on_facet(at, p, i.at); v != Vertex_handle()) {
       v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
       images_.add_of(v, made_, i.is_usual);
@@ -390,15 +394,10 @@ class Feature_refiner_3 {
     outgoing_.emplace_back(i.at, std::move(errand));
   }
 
-  /// Splits the subsegments in the way of an image, which has another try then. False if there are none.
-  /// \pre the features of the image's cavity are gathered
-  bool make_way(Image i, const auto& is_in_the_way) {
-    std::vector<Piece_id> way;
-    for (const auto& f : features_.subsegments())
-      if (is_in_the_way(f)) way.push_back(complex_.subsegment_id(f.slot));
-    if (way.empty()) return false;
+  /// Splits the subsegments in the way of an image, which has another try then.
+  void make_way(Image i, const std::vector<Piece_id>& way) {
     cavity_.abandon();
-    if (i.tries++ == most_tries) return true;
+    if (i.tries++ == most_tries) return;
     bool is_split = false, is_elsewhere = false;
     for (const Piece_id& s : way) {
       if (!complex_.is_live_subsegment(s)) continue;
@@ -412,7 +411,6 @@ class Feature_refiner_3 {
       hand_on(i);
     else if (is_split)
       images_.add(i);
-    return true;
   }
 
   /// Inserts p into the subfacet that holds it. None, with the cavity abandoned, if the sheet would not stay whole.

@@ -3,10 +3,12 @@
 #define PGDR_CONFORMING_FEATURE_REQUEST_H
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/feature_id.h>
@@ -38,6 +40,9 @@ struct Split_guard {
   double reach = 0;                     ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
   double floor_apart = 0;               ///< if positive, in the place of `floor` for pieces without a vertex in which
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
+
+  /// Whether the client's shortest edge is as short as a small angle makes it: that is next to the angle, however far away.
+  bool is_edge_explained() const { return std::isinf(reach); }
 };
 
 /// The point and the piece at which a split was `elsewhere`.
@@ -89,13 +94,14 @@ struct Feature_errand_3 {
   enum class Client : std::uint8_t {
     none,
     subfacet,    ///< `request` is queued again when a point was inserted
-    tetrahedron  ///< `cell` goes back `home`
+    tetrahedron  ///< `cell` goes back `home`, with `obstacle` among `refused` if nothing was inserted
   };
   Client client = Client::none;
   Feature_request request{};
   Cell_id_3<Cell_handle> cell;
   Vec_3 home;
-  bool is_refused = false;  ///< nothing was inserted
+  Piece_id obstacle;
+  std::vector<Piece_id> refused;
   Vertex_handle by{};
   Index facet = 0;
   bool is_image() const { return by != Vertex_handle(); }

@@ -145,12 +145,12 @@ class Delaunay_leaf_refiner_3 {
       if (result.inserted + features.inserted() - on_features >= task.pause_after) break;
       if (!list.retries_.empty()) {
         const auto errand = list.retries_.pop();
-        if (errand->cell.is_live()) come_home(w, *errand, list, result);
+        if (errand->cell.is_live()) refine(w, errand->cell, std::move(errand->refused), list, result);
         continue;
       }
       if (!list.has_active()) break;
       const Cell_id id = list.pop_active();
-      if (id.is_live()) refine(w, id, list, result);
+      if (id.is_live()) refine(w, id, {}, list, result);
     }
     result.inserted += features.inserted() - on_features;
     close(w, list);
@@ -417,13 +417,14 @@ class Delaunay_leaf_refiner_3 {
     Tetrahedron_points corners;
     Tetrahedron_ball ball;
     Vec_3 at;
+    std::vector<Piece_id> refused;  ///< what is in the way, and may not be split for its sake
 
     Point point() const { return Point(at.x, at.y, at.z); }
     bool is_outside() const { return id.cell->subdomain() == 0; }
   };
 
-  Attempt attempt(const Cell_id& id) const {
-    Attempt t{id, tetrahedron_points(id.cell), {}, {}};
+  Attempt attempt(const Cell_id& id, std::vector<Piece_id> refused) const {
+    Attempt t{id, tetrahedron_points(id.cell), {}, {}, std::move(refused)};
     t.ball = tetrahedron_ball(t.corners);
     t.at = steiner_point(t.is_outside(), t.ball, t.corners);
     return t;
@@ -449,46 +450,62 @@ class Delaunay_leaf_refiner_3 {
   }
 
   /// Inserts the Steiner point of a tetrahedron, or splits what is in the way.
-  void refine(Worker& w, const Cell_id& id, Worklist& list, Drain_result& result) {
+  void refine(Worker& w, const Cell_id& id, std::vector<Piece_id> refused, Worklist& list, Drain_result& result) {
     const bool is_skipped = id.cell->subdomain() == 0 && w.task_.outside_target == std::numeric_limits<double>::infinity();
     if (is_skipped) return;
-    Attempt t = attempt(id);
+    Attempt t = attempt(id, std::move(refused));
     if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
     if (t.is_outside()) return refine_outside(w, t, list, result);
     if (acute_.balls().protects(t.at, t.ball.squared_radius)) return give_up(t, list, result);
+    Trial trial = try_point(w, t, list, result);
+    if (trial == Trial::no_room && criteria_.is_over_ratio(t.ball)) {
+      // What may not be split can be far away, where large tetrahedra next to an angle have to stay. No vertex is closer to this
+      // point than the shortest edge is long, either, and less is in its way.
+      t.at = hull_.pull_in(Type_1_placement()(poor_tetrahedron(t.ball, t.corners)), t.corners);
+      trial = w.task_.region.contains(t.at) ? try_point(w, t, list, result) : Trial::no_room;
+    } else if (trial == Trial::clear) {
+      if constexpr (ChoosingPlacement<Placement>) choose_point(w, t);
+    }
+    if (trial == Trial::clear) insert(w, t, list, result);
+    if (trial == Trial::no_room) give_up(t, list, result);
+  }
+
+  enum class Trial : std::uint8_t {
+    clear,   ///< the Steiner point's cavity is found, and may be filled
+    done,    ///< nothing is left to do for now
+    no_room  ///< none of what is in the way may be split
+  };
+
+  /// Looks for the cavity of a Steiner point in the domain, and makes room if something is in the way.
+  Trial try_point(Worker& w, Attempt& t, Worklist& list, Drain_result& result) {
     Cavity_3<Tr>& cavity = w.features_.cavity();
+    const Cell_handle c = t.id.cell;
+    const auto hand_on_or_give_up = [&] {
+      cavity.is_foreign() ? hand_on(t, list) : give_up(t, list, result);
+      return Trial::done;
+    };
     // Cavities can be large, and what is in the way is close, mostly, so that most of the search can be spared.
     std::size_t looks = 0;
     std::uint32_t in_the_way = Complex::none;
-    const auto is_clear = [&](Cell_handle c) {
-      return ++looks > most_looks || (in_the_way = subsegment_in_the_way(c, t.point())) == Complex::none;
+    const auto is_clear = [&](Cell_handle d) {
+      return ++looks > most_looks || (in_the_way = subsegment_in_the_way(d, t.point())) == Complex::none;
     };
-    if (!cavity.find(t.point(), id.cell, is_clear)) {
-      if (cavity.is_foreign()) return hand_on(t, list);
-      if (in_the_way != Complex::none) {
-        w.obstacles_.set_subsegment(complex_, in_the_way);
-        return make_room(w, t, list, result);
-      }
+    bool is_found = cavity.find(t.point(), c, is_clear);
+    if (!is_found && in_the_way != Complex::none) {
+      w.obstacles_.set_subsegment(complex_, in_the_way);
+      if (make_room(w, t, list, result)) return Trial::done;
+      is_found = cavity.find(t.point(), c);
+    }
+    if (!is_found) {
+      if (cavity.is_foreign()) return hand_on_or_give_up();
       // Rounding can put the center of a flat tetrahedron outside of its own ball.
       t.at = hull_.pull_in(exact_tetrahedron_ball(t.corners).center, t.corners);
-      if (!w.task_.region.contains(t.at)) return give_up(t, list, result);
-      if (!cavity.find(t.point(), id.cell)) return cavity.is_foreign() ? hand_on(t, list) : give_up(t, list, result);
+      if (!w.task_.region.contains(t.at) || !cavity.find(t.point(), c)) return hand_on_or_give_up();
     }
     w.features_.features().gather(complex_, cavity);
-    if (w.obstacles_.collect(complex_, w.features_.features(), t.point())) {
-      cavity.abandon();
-      return make_room(w, t, list, result);
-    }
-    if constexpr (ChoosingPlacement<Placement>) choose_point(w, t);
-    insert(w, t, list, result);
-  }
-
-  /// A tetrahedron from an errand that was run elsewhere for its sake.
-  void come_home(Worker& w, const Errand& errand, Worklist& list, Drain_result& result) {
-    if (errand.is_refused)
-      give_up(attempt(errand.cell), list, result);
-    else
-      refine(w, errand.cell, list, result);
+    if (!w.obstacles_.collect(complex_, w.features_.features(), t.point())) return Trial::clear;
+    cavity.abandon();
+    return make_room(w, t, list, result) ? Trial::done : Trial::no_room;
   }
 
   /// Where the placement offers a choice: takes the point whose star is best. Its cavity is the one that is found then.
@@ -527,10 +544,12 @@ class Delaunay_leaf_refiner_3 {
     return worst;
   }
 
-  void refine_outside(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) {
+  void refine_outside(Worker& w, Attempt& t, Worklist& list, Drain_result& result) {
     switch (find_outside(w, t)) {
       case Obstruction::none: insert(w, t, list, result); break;
-      case Obstruction::splits_anyway: make_room(w, t, list, result); break;
+      case Obstruction::splits_anyway:
+        if (!make_room(w, t, list, result)) give_up(t, list, result);
+        break;
       case Obstruction::stays: give_up(t, list, result); break;
       case Obstruction::foreign: hand_on(t, list); break;
     }
@@ -652,29 +671,43 @@ class Delaunay_leaf_refiner_3 {
     return w.features_.cavity().squared_insertion_radius(p) < least * least;
   }
 
-  /// Splits the first obstacle; the tetrahedron has another try if it is still there. If that one cannot be
-  /// split there is no room, whatever becomes of the others. An obstacle whose split point lies elsewhere takes the tetrahedron along.
-  void make_room(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) const {
+  /// Splits the first obstacle that lets itself be split, but for those that are known not to; the tetrahedron has another try
+  /// if it is still there. An obstacle whose split point lies elsewhere takes the tetrahedron along. With an edge that is only as
+  /// short as a small angle makes it, it is given up at the first refusal: there is no room, whatever becomes of the others.
+  /// Any other one has to try them all. False if no obstacle is left.
+  bool make_room(Worker& w, Attempt& t, Worklist& list, Drain_result& result) const {
     Features& features = w.features_;
     const Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
-    const std::uint32_t slot = w.obstacles_.to_split().front().slot;
-    const bool outside = t.is_outside();
-    const Split_outcome outcome = w.obstacles_.are_subsegments()
-                                      ? features.split_subsegment(slot, Split_reason::encroached, guard)
-                                      : features.split_subfacet(slot, Split_reason::encroached, guard);
-    if (outcome == Split_outcome::refused) return give_up(t, list, result);
-    if (outcome == Split_outcome::inserted) {
-      if (t.id.is_live()) (outside ? list.active_outside_ : list.active_).push(t.id);
-      return;
+    const bool outside = t.is_outside(), segments = w.obstacles_.are_subsegments();
+    for (const Piece_id& piece : w.obstacles_.to_split()) {
+      const bool is_known = std::ranges::find(t.refused, piece) != t.refused.end();
+      const Split_outcome outcome = is_known   ? Split_outcome::refused
+                                    : segments ? features.split_subsegment(piece.slot, Split_reason::encroached, guard)
+                                               : features.split_subfacet(piece.slot, Split_reason::encroached, guard);
+      if (outcome == Split_outcome::inserted) {
+        if (t.id.is_live()) (outside ? list.active_outside_ : list.active_).push(t.id);
+        return true;
+      }
+      if (outcome == Split_outcome::elsewhere) {
+        auto errand = std::make_unique<Errand>();
+        errand->piece = features.elsewhere().piece;
+        errand->is_subsegment = features.elsewhere().is_subsegment;
+        errand->guard = guard;
+        errand->client = Errand::Client::tetrahedron;
+        errand->cell = t.id;
+        errand->home = t.at;
+        errand->obstacle = piece;
+        errand->refused = std::move(t.refused);
+        features.outgoing().emplace_back(features.elsewhere().at, std::move(errand));
+        return true;
+      }
+      if (guard.is_edge_explained()) {
+        give_up(t, list, result);
+        return true;
+      }
+      if (!is_known) t.refused.push_back(piece);
     }
-    auto errand = std::make_unique<Errand>();
-    errand->piece = features.elsewhere().piece;
-    errand->is_subsegment = features.elsewhere().is_subsegment;
-    errand->guard = guard;
-    errand->client = Errand::Client::tetrahedron;
-    errand->cell = t.id;
-    errand->home = t.at;
-    features.outgoing().emplace_back(features.elsewhere().at, std::move(errand));
+    return false;
   }
 
   /// Where a facet cannot be mended within the territory, gives away the vertices of the tetrahedra made since it was torn:
