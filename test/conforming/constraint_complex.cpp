@@ -235,14 +235,14 @@ TEST_CASE("Distances to small angles", "[conforming]") {
   };
   const pgdr::Index side = facet_with(0, 1, 4), wall = facet_with(0, 2, 5), end = facet_with(1, 2, 4);
   const pgdr::Vec_3 p{2, 0, 2}, mirrored{2 * std::cos(0.5), 2 * std::sin(0.5), 2};
-  CHECK(acute.explains(2, side, p, 2, wall, mirrored));
-  CHECK(acute.explains(2, wall, mirrored, 2, side, p));
-  CHECK_FALSE(acute.explains(2, side, p, 2, side, {2, 0, 2.1}));         // one facet
-  CHECK_FALSE(acute.explains(2, side, p, 2, wall, {2, 0.4, 2}));         // closer than half of what the angle makes
-  CHECK_FALSE(acute.explains(2, side, {2.9, 0, 2}, 2, end, {3, 0.1, 2}));  // meet at 90 degrees
-  CHECK_FALSE(acute.explains(3, 0, p, 2, wall, mirrored));               // a point of the volume
-  CHECK(acute.explains(1, segment_with(0, 1), {2, 0, 0}, 1, segment_with(0, 2), {2 * std::cos(0.5), 2 * std::sin(0.5), 0}));
-  CHECK_FALSE(acute.explains(1, segment_with(0, 1), {2, 0, 0}, 2, facet_with(0, 1, 2), {2, 0.6, 0}));  // bounds it
+  CHECK(acute.explains({2, side}, p, {2, wall}, mirrored));
+  CHECK(acute.explains({2, wall}, mirrored, {2, side}, p));
+  CHECK_FALSE(acute.explains({2, side}, p, {2, side}, {2, 0, 2.1}));         // one facet
+  CHECK_FALSE(acute.explains({2, side}, p, {2, wall}, {2, 0.4, 2}));         // closer than half of what the angle makes
+  CHECK_FALSE(acute.explains({2, side}, {2.9, 0, 2}, {2, end}, {3, 0.1, 2}));  // meet at 90 degrees
+  CHECK_FALSE(acute.explains({3, 0}, p, {2, wall}, mirrored));               // a point of the volume
+  CHECK(acute.explains({1, segment_with(0, 1)}, {2, 0, 0}, {1, segment_with(0, 2)}, {2 * std::cos(0.5), 2 * std::sin(0.5), 0}));
+  CHECK_FALSE(acute.explains({1, segment_with(0, 1)}, {2, 0, 0}, {2, facet_with(0, 1, 2)}, {2, 0.6, 0}));  // bounds it
 
   const pgdr::Acute_neighborhood_3 none(pgdr::make_domain_3(tilted(box())));
   for (pgdr::Index v = 0; v < 8; ++v) CHECK(!none.is_acute_vertex(v));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -25,6 +24,7 @@
 
 #include <pgdr/conforming/facet_wedges_3.h>
 #include <pgdr/conforming/feature_id.h>
+#include <pgdr/conforming/narrow_angles_3.h>
 #include <pgdr/conforming/protected_balls_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/small_angles_3.h>
@@ -67,6 +67,7 @@ class Acute_neighborhood_3 {
       if (angles.segment_deg[s] < limit)
         segments_.emplace_back(point(domain.segments[s].vertices[0]), point(domain.segments[s].vertices[1]));
     balls_.emplace(domain, is_acute_vertex_);
+    narrow_.emplace(domain, angles);
     segment_tree_.rebuild(segments_.begin(), segments_.end());
     if (!segments_.empty()) segment_tree_.build();
     if (vertices_.size() > 0) vertices_.build();
@@ -79,6 +80,7 @@ class Acute_neighborhood_3 {
 
   const Facet_wedges_3& wedges() const { return wedges_; }
   const Protected_balls_3& balls() const { return *balls_; }
+  const Narrow_angles_3& narrow() const { return *narrow_; }
 
   /// Whether p is within `distance` of such a vertex or segment.
   bool contains(const Vec_3& p, double distance) const {
@@ -88,46 +90,41 @@ class Acute_neighborhood_3 {
     return !segments_.empty() && segment_tree_.squared_distance(q) <= distance * distance;
   }
 
-  /// Whether two points p and q of different features, segments or facets given by dimension and index, may be as close as
+  /// Whether two points p and q of different features, segments or facets, may be as close as
   /// they are just because the features meet at less than `limit` degrees, near p. The local feature size, which takes no
   /// notice of features that meet, does not know such distances.
-  bool explains(int p_dimension, Index p_feature, const Vec_3& p, int q_dimension, Index q_feature,
-                const Vec_3& q) const {
-    if (p_dimension == q_dimension && p_feature == q_feature) return false;
-    if (p_dimension < 1 || q_dimension < 1 || p_dimension > 2 || q_dimension > 2) return false;
-    const auto& a = angles_at(p_dimension, p_feature);
-    const auto& b = angles_at(q_dimension, q_feature);
-    if (p_dimension != q_dimension &&
-        contains_segment(p_dimension == 2 ? p_feature : q_feature, p_dimension == 1 ? p_feature : q_feature))
+  bool explains(const Feature_id& of_p, const Vec_3& p, const Feature_id& of_q, const Vec_3& q) const {
+    if (of_p == of_q || !has_angles(of_p) || !has_angles(of_q)) return false;
+    if (of_p.dimension != of_q.dimension &&
+        contains_segment((of_p.dimension == 2 ? of_p : of_q).index, (of_p.dimension == 1 ? of_p : of_q).index))
       return false;
     const double gap2 = squared_distance(p, q);
-    return std::ranges::any_of(a, [&](Place place) {
-      return gap2 >= squared_gap(place, p) && std::ranges::binary_search(b, place);
+    return std::ranges::any_of(angles_at(of_p), [&](Place place) {
+      return gap2 >= squared_gap(place, p) && std::ranges::binary_search(angles_at(of_q), place);
     });
   }
 
   /// Whether two features come close to each other at vertices only, none of them the end of a segment with a small dihedral
   /// angle. Then how far apart they are is bounded from below, but for their pieces at these vertices (`meet_at`).
   bool meet_at_vertices_only(const Feature_id& a, const Feature_id& b) const {
-    const auto& of_b = angles_at(b.dimension, b.index);
-    return std::ranges::none_of(angles_at(a.dimension, a.index), [&](Place place) {
+    const auto& of_b = angles_at(b);
+    return std::ranges::none_of(angles_at(a), [&](Place place) {
       return ((place & segment_bit) || ends_wedge_[place]) && std::ranges::binary_search(of_b, place);
     });
   }
 
   /// Whether two features meet at a small angle in this domain vertex.
   bool meet_at(Index vertex, const Feature_id& a, const Feature_id& b) const {
-    return std::ranges::binary_search(angles_at(a.dimension, a.index), Place{vertex}) &&
-           std::ranges::binary_search(angles_at(b.dimension, b.index), Place{vertex});
+    return std::ranges::binary_search(angles_at(a), Place{vertex}) && std::ranges::binary_search(angles_at(b), Place{vertex});
   }
 
-  /// Whether two features meet at a small angle so near to m that it is protected there: within `Protected_balls_3::part` of
-  /// the shortest segment of the vertex, or of the length of the segment, that they meet in.
-  bool protects(const Vec_3& m, int p_dimension, Index p_feature, int q_dimension, Index q_feature) const {
-    const auto& b = angles_at(q_dimension, q_feature);
-    return std::ranges::any_of(angles_at(p_dimension, p_feature), [&](Place place) {
-      const double radius = Protected_balls_3::part * shortest_segment(place);
-      return squared_distance_to(place, m) < radius * radius && std::ranges::binary_search(b, place);
+  /// Whether two features meet at a small angle so near to m that it is protected there: inside the ball of the vertex, or within
+  /// `Protected_balls_3::part` of the length of the segment, that they meet in. On the sphere is not inside: with its point there a
+  /// segment stays as it is, and without, it would be in the way of all that comes near.
+  bool protects(const Vec_3& m, const Feature_id& a, const Feature_id& b) const {
+    return std::ranges::any_of(angles_at(a), [&](Place place) {
+      const double radius = protected_radius(place);
+      return squared_distance_to(place, m) < radius * radius && std::ranges::binary_search(angles_at(b), place);
     });
   }
 
@@ -165,21 +162,20 @@ class Acute_neighborhood_3 {
       segment_angle_.push_back(radians(angles.segment_deg[s]));
       ends_.push_back(domain.segments[s].vertices);
     }
-    shortest_at_.assign(position_.size(), std::numeric_limits<double>::infinity());
-    for (const auto& [a, b] : ends_)
-      for (const Index v : {a, b}) shortest_at_[v] = std::min(shortest_at_[v], length(position_[b] - position_[a]));
   }
 
-  const std::vector<Place>& angles_at(int dimension, Index feature) const {
-    return dimension == 1 ? at_segment_[feature] : at_facet_[feature];
+  static bool has_angles(const Feature_id& f) { return f.dimension == 1 || f.dimension == 2; }
+  const std::vector<Place>& angles_at(const Feature_id& f) const {
+    return f.dimension == 1 ? at_segment_[f.index] : at_facet_[f.index];
   }
   bool contains_segment(Index facet, Index segment) const {
     return std::binary_search(segments_of_facet_[facet].begin(), segments_of_facet_[facet].end(), segment);
   }
 
-  double shortest_segment(Place place) const {
+  double protected_radius(Place place) const {
     const auto i = static_cast<Index>(place & ~segment_bit);
-    return place & segment_bit ? length(position_[ends_[i][1]] - position_[ends_[i][0]]) : shortest_at_[i];
+    if (!(place & segment_bit)) return (1 - 1e-9) * balls_->radius(i);
+    return Protected_balls_3::part * length(position_[ends_[i][1]] - position_[ends_[i][0]]);
   }
 
   double squared_distance_to(Place place, const Vec_3& p) const {
@@ -199,6 +195,7 @@ class Acute_neighborhood_3 {
 
   Facet_wedges_3 wedges_;
   std::optional<Protected_balls_3> balls_;
+  std::optional<Narrow_angles_3> narrow_;
   std::vector<bool> is_acute_vertex_;
   std::vector<bool> ends_wedge_;                           ///< vertices of segments with small dihedral angles
   std::vector<std::vector<Place>> at_segment_, at_facet_;  ///< the small angles there, ascending
@@ -206,7 +203,6 @@ class Acute_neighborhood_3 {
   std::vector<std::array<Index, 2>> ends_;
   std::vector<Vec_3> position_;
   std::vector<double> vertex_angle_, segment_angle_;
-  std::vector<double> shortest_at_;  ///< length of each vertex's shortest segment
   Vertex_search::Tree vertices_;
   Segments segments_;
   Segment_tree segment_tree_;

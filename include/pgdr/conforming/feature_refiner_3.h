@@ -121,7 +121,7 @@ class Feature_refiner_3 {
     if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
     const Point p(m.x, m.y, m.z);
     if (const auto r = search_.from_subsegment(p, s); r != Search_result::found)
-      return r == Search_result::foreign ? point_elsewhere(m, complex_.subsegment_id(slot), true) : Split_outcome::refused;
+      return blocked(r == Search_result::foreign, m, complex_.subsegment_id(slot), true);
     if (spacing_.is_too_close(cavity_, m, {1, s.segment}, s.vertices, reason, guard, 0.5 * length(b - a))) return abandon();
 
     features_.gather(complex_, cavity_);
@@ -133,7 +133,7 @@ class Feature_refiner_3 {
       if (!stars_[k].plan(complex_, s.subfacets[k], p, slot, territory())) {
         features_.mark_deleted(complex_, false);
         cavity_.abandon();
-        return stars_[k].is_foreign() ? point_elsewhere(m, complex_.subsegment_id(slot), true) : Split_outcome::refused;
+        return blocked(stars_[k].is_foreign(), m, complex_.subsegment_id(slot), true);
       }
     const Vertex_handle v = commit(p, m, {1, s.segment});
     // Vertices on the shell of one acute corner come as close to each other as the angles there make them; what
@@ -167,7 +167,7 @@ class Feature_refiner_3 {
     };
     if (at.subsegment != Complex::none) return give_way(at.subsegment);
     if (const auto r = search_.from_subfacet(p, at.subfacet, slot); r != Search_result::found)
-      return r == Search_result::foreign ? point_elsewhere(m, complex_.subfacet_id(slot), false) : Split_outcome::refused;
+      return blocked(r == Search_result::foreign, m, complex_.subfacet_id(slot), false);
     features_.gather(complex_, cavity_);
     for (const auto& f : features_.subsegments())
       if (f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p))) {
@@ -179,8 +179,7 @@ class Feature_refiner_3 {
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
       return abandon();
     const Vertex_handle v = insert_on_facet(at.subfacet, p, m);
-    if (v == Vertex_handle())
-      return stars_[0].is_foreign() ? point_elsewhere(m, complex_.subfacet_id(slot), false) : Split_outcome::refused;
+    if (v == Vertex_handle()) return blocked(stars_[0].is_foreign(), m, complex_.subfacet_id(slot), false);
     mirror(v, reason);
     return Split_outcome::inserted;
   }
@@ -205,8 +204,6 @@ class Feature_refiner_3 {
   }
   /// Called when every piece is present (again).
   void note_mended() { torn_ = false; }
-  /// Whether a subfacet was lost since.
-  bool is_torn() const { return torn_; }
   void set_torn(bool torn) { torn_ = torn; }
 
   /// Where an errand's split point is; for a piece that is gone, anywhere.
@@ -302,6 +299,10 @@ class Feature_refiner_3 {
   Split_outcome point_elsewhere(const Vec_3& at, Piece_id piece, bool is_subsegment) {
     elsewhere_ = {at, piece, is_subsegment};
     return Split_outcome::elsewhere;
+  }
+
+  Split_outcome blocked(bool is_foreign, const Vec_3& at, Piece_id piece, bool is_subsegment) {
+    return is_foreign ? point_elsewhere(at, piece, is_subsegment) : Split_outcome::refused;
   }
 
   /// Whether a point has images that may lie in another territory. They have to be there before anything else is: facets that

@@ -3,7 +3,6 @@
 #define PGDR_CONFORMING_FEATURE_REQUEST_H
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -40,9 +39,11 @@ struct Split_guard {
   double reach = 0;                     ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
   double floor_apart = 0;               ///< if positive, in the place of `floor` for pieces without a vertex in which
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
+  bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
 
-  /// Whether the client's shortest edge is as short as a small angle makes it: that is next to the angle, however far away.
-  bool is_edge_explained() const { return std::isinf(reach); }
+  /// Whether the client is given up as soon as one piece in its way refuses: with an edge as short as a small angle makes it, unless
+  /// that is much shorter than what is around.
+  bool gives_up_at_once() const { return is_at_wedge || floor_apart > 0; }
 };
 
 /// The point and the piece at which a split was `elsewhere`.
@@ -69,6 +70,10 @@ struct Feature_queues {
 
   bool empty() const { return subsegments.empty() && subfacets.empty(); }
   std::size_t size() const { return subsegments.size() + subfacets.size(); }
+  void take_all(Feature_queues& from) {
+    subsegments.take_all(from.subsegments);
+    subfacets.take_all(from.subfacets);
+  }
 };
 
 /// A tetrahedron as it was when it was noted.

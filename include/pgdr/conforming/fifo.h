@@ -37,6 +37,11 @@ class Fifo {
     first_ = 0;
   }
 
+  /// Takes over all items of another queue, in their order.
+  void take_all(Fifo& from) {
+    while (!from.empty()) push(from.pop());
+  }
+
   /// Gives the memory of an empty queue back.
   void release_if_empty() {
     if (empty()) std::vector<T>().swap(items_);

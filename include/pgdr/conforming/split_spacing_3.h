@@ -30,7 +30,7 @@ class Split_spacing_3 {
   /// Squared distance from m to the nearest vertex of its cavity that counts.
   double squared_distance(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on) const {
     return cavity.squared_insertion_radius(m, [&](typename Tr::Vertex_handle v) {
-      return acute_.explains(on.dimension, on.index, m, v->in_dimension(), v->index(), position(v));
+      return acute_.explains(on, m, feature_of(v), position(v));
     });
   }
 
@@ -38,7 +38,7 @@ class Split_spacing_3 {
   /// came with: otherwise two features could drive each other to ever shorter ones. How far "next to" reaches: if v is this
   /// close to m, the split point, just because the two features meet at a small angle, however far away they meet.
   double reach(const Feature_id& on, const Vec_3& m, typename Tr::Vertex_handle v) const {
-    const bool explained = acute_.explains(on.dimension, on.index, m, v->in_dimension(), v->index(), position(v));
+    const bool explained = acute_.explains(on, m, feature_of(v), position(v));
     return explained ? std::numeric_limits<double>::infinity() : 0;
   }
 

@@ -23,16 +23,14 @@ bool tears_protected(const Constraint_complex_3<Tr>& complex, const Cavity_featu
     const auto& sheets = complex.subsegment(split).subfacets;
     return std::ranges::any_of(sheets, [&](std::uint32_t t) { return complex.subfacet(t).facet == facet; });
   };
-  const auto is_protected = [&](int dimension, Index torn) {
-    return acute.protects(m, on.dimension, on.index, dimension, torn);
-  };
+  const auto is_protected = [&](const Feature_id& torn) { return acute.protects(m, on, torn); };
   return std::ranges::any_of(features.subsegments(),
                              [&](const auto& f) {
-                               return f.deleted && f.slot != split && is_protected(1, complex.subsegment(f.slot).segment);
+                               return f.deleted && f.slot != split && is_protected({1, complex.subsegment(f.slot).segment});
                              }) ||
          std::ranges::any_of(features.subfacets(), [&](const auto& f) {
            const Index facet = complex.subfacet(f.slot).facet;
-           return f.deleted && !is_split(facet) && is_protected(2, facet);
+           return f.deleted && !is_split(facet) && is_protected({2, facet});
          });
 }
 

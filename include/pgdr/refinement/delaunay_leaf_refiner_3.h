@@ -24,6 +24,7 @@
 #include <pgdr/refinement/obstacles_3.h>
 #include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
+#include <pgdr/refinement/split_guard_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
@@ -182,6 +183,7 @@ class Delaunay_leaf_refiner_3 {
   /// territory stays; another `round` has other borders. \pre nobody else is at work
   Division divide(Worker& w, Worklist& list, const Leaf_task& task, std::size_t round, unsigned halvings) {
     constexpr std::array<double, 3> shares{0.5, 0.4, 0.6};
+    constexpr std::size_t most_samples = 16384;
     Division division;
     if (list.is_torn()) return division;
     open(w, task, list);
@@ -189,7 +191,9 @@ class Delaunay_leaf_refiner_3 {
     close(w, list);
     const std::size_t n = territory_count(list.active(), halvings);
     if (n == 0) return division;
-    const Territory_map map(sample_vertices(tr_), n, shares[round % shares.size()]);
+    std::vector<Vec_3> sample;
+    list.sample_active(most_samples, [&](const Cell_id& id) { sample.push_back(rough_steiner_point(id.cell)); });
+    const Territory_map map(sample.empty() ? sample_vertices(tr_, most_samples) : std::move(sample), n, shares[round % shares.size()]);
     mark_territories(tr_, map);
     division.parts.resize(n);
     for (std::size_t k = 0; k < n; ++k) division.regions.push_back(map.region(k));
@@ -457,6 +461,9 @@ class Delaunay_leaf_refiner_3 {
     if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
     if (t.is_outside()) return refine_outside(w, t, list, result);
     if (acute_.balls().protects(t.at, t.ball.squared_radius)) return give_up(t, list, result);
+    const bool is_too_large = criteria_.is_over_size(t.ball, t.id.cell->subdomain());
+    if (!is_too_large && is_hopeless(t.id.cell, t.ball, t.corners, criteria_.radius_edge_ratio(), acute_.narrow()))
+      return give_up(t, list, result);
     Trial trial = try_point(w, t, list, result);
     if (trial == Trial::no_room && criteria_.is_over_ratio(t.ball)) {
       // What may not be split can be far away, where large tetrahedra next to an angle have to stay. No vertex is closer to this
@@ -580,9 +587,11 @@ class Delaunay_leaf_refiner_3 {
   /// Inserts the Steiner point. \pre its cavity is found
   void insert(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) {
     Cavity_3<Tr>& cavity = w.features_.cavity();
+    const double distance = std::sqrt(t.ball.squared_radius) - length(t.at - t.ball.center);
+    const double radius = std::max(distance, inherited_radius(t.id.cell, t.ball, t.corners));
     const Vertex_handle v = cavity.commit(t.point());
     v->set_feature(3, Tr::Vertex::none);
-    v->set_insertion_radius(std::sqrt(t.ball.squared_radius) - length(t.at - t.ball.center));
+    v->set_insertion_radius(radius);
     list.set_anchor(v);
     ++result.inserted;
     for (const Cell_handle c : cavity.star()) classify(w, c, list);
@@ -672,9 +681,9 @@ class Delaunay_leaf_refiner_3 {
   }
 
   /// Splits the first obstacle that lets itself be split, but for those that are known not to; the tetrahedron has another try
-  /// if it is still there. An obstacle whose split point lies elsewhere takes the tetrahedron along. With an edge that is only as
-  /// short as a small angle makes it, it is given up at the first refusal: there is no room, whatever becomes of the others.
-  /// Any other one has to try them all. False if no obstacle is left.
+  /// if it is still there. An obstacle whose split point lies elsewhere takes the tetrahedron along. Some are
+  /// given up at the first refusal (`Split_guard::gives_up_at_once`): there is no room then, whatever becomes of the others. Trying
+  /// the others all the same pays where an edge is so short that hardly anything may be split for its sake. False if no obstacle is left.
   bool make_room(Worker& w, Attempt& t, Worklist& list, Drain_result& result) const {
     Features& features = w.features_;
     const Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
@@ -689,25 +698,30 @@ class Delaunay_leaf_refiner_3 {
         return true;
       }
       if (outcome == Split_outcome::elsewhere) {
-        auto errand = std::make_unique<Errand>();
-        errand->piece = features.elsewhere().piece;
-        errand->is_subsegment = features.elsewhere().is_subsegment;
-        errand->guard = guard;
-        errand->client = Errand::Client::tetrahedron;
-        errand->cell = t.id;
-        errand->home = t.at;
-        errand->obstacle = piece;
-        errand->refused = std::move(t.refused);
-        features.outgoing().emplace_back(features.elsewhere().at, std::move(errand));
+        features.outgoing().emplace_back(features.elsewhere().at, errand_for(t, guard, piece, features.elsewhere()));
         return true;
       }
-      if (guard.is_edge_explained()) {
+      if (guard.gives_up_at_once()) {
         give_up(t, list, result);
         return true;
       }
       if (!is_known) t.refused.push_back(piece);
     }
     return false;
+  }
+
+  /// To split what is elsewhere, for the sake of a tetrahedron that `obstacle` is in the way of.
+  static std::unique_ptr<Errand> errand_for(Attempt& t, const Split_guard& guard, const Piece_id& obstacle, const Split_elsewhere& split) {
+    auto errand = std::make_unique<Errand>();
+    errand->piece = split.piece;
+    errand->is_subsegment = split.is_subsegment;
+    errand->guard = guard;
+    errand->client = Errand::Client::tetrahedron;
+    errand->cell = t.id;
+    errand->home = t.at;
+    errand->obstacle = obstacle;
+    errand->refused = std::move(t.refused);
+    return errand;
   }
 
   /// Where a facet cannot be mended within the territory, gives away the vertices of the tetrahedra made since it was torn:
@@ -724,13 +738,18 @@ class Delaunay_leaf_refiner_3 {
     f.note_mended();
   }
 
+  /// A tetrahedron of another territory is looked at when that is at work.
+  static void hand_on_fresh(const Cell_id& id, Worklist& list) {
+    list.outgoing_.push_back({position(id.cell->vertex(0)), Parcel::Kind::fresh, id, nullptr});
+  }
+
   void take_fresh_cells(Worker& w, Worklist& list) {
     for (const Cell_id& id : w.features_.fresh_cells())
       if (id.is_live()) {
         if (w.features_.cavity().territory().owns(id.cell))
           classify(w, id.cell, list);
         else
-          list.outgoing_.push_back({position(id.cell->vertex(0)), Parcel::Kind::fresh, id, nullptr});
+          hand_on_fresh(id, list);
       }
     w.features_.fresh_cells().clear();
   }
@@ -760,7 +779,7 @@ class Delaunay_leaf_refiner_3 {
         if (w.features_.cavity().territory().owns(n))
           flat.push_back(n);
         else
-          list.outgoing_.push_back({position(c->vertex(0)), Parcel::Kind::fresh, {n, n->generation(), 0}, nullptr});
+          hand_on_fresh({n, n->generation(), 0}, list);
       }
     }
     return c->subdomain() == 0;

@@ -25,12 +25,11 @@ inline std::size_t territory_count(std::size_t active, unsigned halvings) {
   return active < 2 * least ? 0 : std::clamp<std::size_t>(n, 2, std::bit_floor(active / least));
 }
 
-/// The vertices of a mesh, or a sample of them that does not depend on their order, which timing decides; without those
+/// The vertices of a mesh, or a sample of about `most` of them that does not depend on their order, which timing decides; without those
 /// that only make the hull.
 template <class Tr>
-std::vector<Vec_3> sample_vertices(const Tr& tr) {
-  constexpr std::size_t most_points = 16384;
-  const std::uint64_t step = 1 + tr.number_of_vertices() / most_points;
+std::vector<Vec_3> sample_vertices(const Tr& tr, std::size_t most) {
+  const std::uint64_t step = 1 + tr.number_of_vertices() / most;
   std::vector<Vec_3> sample;
   for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v) {
     if (v->in_dimension() == 4) continue;

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 #include <utility>
+#include <vector>
 
 #include <pgdr/domain/region_3.h>
 

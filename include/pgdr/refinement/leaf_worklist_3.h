@@ -44,6 +44,8 @@ class Leaf_worklist_3 {
   using Errand = Feature_errand_3<Cell_handle>;
   using Parcel = Leaf_parcel_3<Tr>;
 
+  static constexpr std::uint16_t dead = 0xffff;  ///< the number, in `divide`, of what is not needed any more
+
   bool has_work() const {
     return has_active() || !errands_.empty() || !retries_.empty() || !queues_.empty() || !fresh_.empty();
   }
@@ -77,6 +79,15 @@ class Leaf_worklist_3 {
     largest_deferred_ = static_cast<double>(r);
   }
 
+  /// Calls `found` with some of the active tetrahedra, about `most`, spread evenly over the queues.
+  template <class Found>
+  void sample_active(std::size_t most, const Found& found) const {
+    const std::size_t step = 1 + (active_.size() + active_outside_.size()) / most;
+    for (const Fifo<Cell_id>* queue : {&active_, &active_outside_})
+      for (std::size_t k = 0; k < queue->size(); k += step)
+        if ((*queue)[k].is_live()) found((*queue)[k]);
+  }
+
   std::vector<Parcel>& outgoing() { return outgoing_; }
 
   /// A vertex in or near the leaf, to start a walk from.
@@ -98,15 +109,8 @@ class Leaf_worklist_3 {
 
   /// Takes over what is stranded or unlabelled in another worklist; `all` its other features, too.
   void take_torn(Leaf_worklist_3& from, bool all) {
-    const auto move = [](Fifo<Feature_request>& a, Fifo<Feature_request>& b) {
-      while (!a.empty()) b.push(a.pop());
-    };
-    move(from.stranded_.subsegments, queues_.subsegments);
-    move(from.stranded_.subfacets, queues_.subfacets);
-    if (all) {
-      move(from.queues_.subsegments, queues_.subsegments);
-      move(from.queues_.subfacets, queues_.subfacets);
-    }
+    queues_.take_all(from.stranded_);
+    if (all) queues_.take_all(from.queues_);
     unlabelled_.insert(unlabelled_.end(), from.unlabelled_.begin(), from.unlabelled_.end());
     from.unlabelled_.clear();
     from.torn_ = false;
@@ -136,27 +140,20 @@ class Leaf_worklist_3 {
     for (Leaf_worklist_3& part : parts) part.anchor_ = anchor_;
   }
 
-  static constexpr std::uint16_t dead = 0xffff;
-
   /// Takes over all that another worklist has left. \pre it has no outgoing parcels
   void take_back(Leaf_worklist_3& part) {
     const auto append = [](auto& to, auto& from) {
       to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
       from = {};
     };
-    const auto move = [](auto& to, auto& from) {
-      while (!from.empty()) to.push(from.pop());
-    };
-    move(active_, part.active_);
-    move(active_outside_, part.active_outside_);
+    active_.take_all(part.active_);
+    active_outside_.take_all(part.active_outside_);
     append(deferred_, part.deferred_);
     append(outside_, part.outside_);
-    move(errands_, part.errands_);
-    move(retries_, part.retries_);
-    move(queues_.subsegments, part.queues_.subsegments);
-    move(queues_.subfacets, part.queues_.subfacets);
-    move(stranded_.subsegments, part.stranded_.subsegments);
-    move(stranded_.subfacets, part.stranded_.subfacets);
+    errands_.take_all(part.errands_);
+    retries_.take_all(part.retries_);
+    queues_.take_all(part.queues_);
+    stranded_.take_all(part.stranded_);
     append(fresh_, part.fresh_);
     append(unlabelled_, part.unlabelled_);
     append(refused_, part.refused_);

@@ -133,7 +133,6 @@ class Epoch_scheduler {
     recorder_.section("targets", true, begin);
   }
 
-
   void finish_epoch() {
     if (statistics_.epochs.empty() || epoch_start_ < 0) return;
     Epoch_statistics& epoch = statistics_.epochs.back();
@@ -273,12 +272,7 @@ class Epoch_scheduler {
   /// Where one leaf is everything: its work, divided. False if that is not worth while.
   bool run_divided(std::size_t quota) {
     if (!is_divisible()) return false;
-    Leaf_task task;
-    task.target = leaves_[0].target;
-    task.outside_target = outside_target(leaves_[0]);
-    task.last = leaves_[0].final;
-    task.quota = quota;
-    task.cancel = parameters_.cancel;
+    const Leaf_task task = task_for(leaves_[0], quota);
     const auto round = divided_.run(engine_, *workers_[0], leaves_[0].work, task, recorder_, [&](Worklist& part, Leaf_task mine) {
       const double start = recorder_.now();
       if (parameters_.check_zones) mine.tag = thread_tag();
@@ -294,6 +288,17 @@ class Epoch_scheduler {
     return true;
   }
 
+  /// What a leaf's task is, wherever the leaf is.
+  Leaf_task task_for(const Leaf& leaf, std::size_t quota) const {
+    Leaf_task task;
+    task.target = leaf.target;
+    task.outside_target = outside_target(leaf);
+    task.last = leaf.final;
+    task.quota = quota;
+    task.cancel = parameters_.cancel;
+    return task;
+  }
+
   std::uint16_t thread_tag() const {
     return static_cast<std::uint16_t>(std::max(tbb::this_task_arena::current_thread_index(), 0) + 1);
   }
@@ -304,16 +309,11 @@ class Epoch_scheduler {
     const std::uint32_t i = runnable_[k];
     Leaf& leaf = leaves_[i];
     gather(i);
-    Leaf_task task;
+    Leaf_task task = task_for(leaf, quota == unlimited ? quota : quota + (k < extra_ ? 1 : 0));
     task.region = leaf_region(octree_, i);
     const Region_3 box = closed_box(i);
     task.near = leaf.admissible && leaves_.size() > 1 ? grown(box, leaf.shortest / 4) : Region_3{};
     task.reach = leaf.admissible && leaves_.size() > 1 ? grown(box, leaf.shortest / 2) : Region_3{};
-    task.target = leaf.target;
-    task.outside_target = outside_target(leaf);
-    task.last = leaf.final;
-    task.quota = quota == unlimited ? quota : quota + (k < extra_ ? 1 : 0);
-    task.cancel = parameters_.cancel;
     task.features_only = std::any_of(leaf.touching.begin(), leaf.touching.end(),
                                      [this](std::uint32_t n) { return leaves_[n].work.is_torn(); });
     if (is_divisible()) task.pause_after = Divided_work<Engine>::most_alone;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_REFINEMENT_SPLIT_GUARD_3_H
+#define PGDR_REFINEMENT_SPLIT_GUARD_3_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/feature_id.h>
+#include <pgdr/conforming/feature_request.h>
+#include <pgdr/conforming/narrow_angles_3.h>
+#include <pgdr/conforming/split_point_3.h>
+#include <pgdr/domain/vec_3.h>
+#include <pgdr/refinement/tetrahedron_ball.h>
+
+namespace pgdr {
+
+/// Calls `found(i, j)` with the ends of each edge that is as short as the shortest one.
+template <class Found>
+void for_each_shortest_edge(const Tetrahedron_ball& ball, const Tetrahedron_points& corners, const Found& found) {
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j)
+      if (squared_distance(corners[i], corners[j]) <= ball.squared_shortest) found(i, j);
+}
+
+/// Calls `found(i, j, radius)` with each of these that is shorter than the insertion radii of its ends, and with the smaller of the
+/// two. Only a small angle brings two vertices that close.
+template <class Cell_handle, class Found>
+void for_each_narrow_edge(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners, const Found& found) {
+  for_each_shortest_edge(ball, corners, [&](std::size_t i, std::size_t j) {
+    const auto radius_at = [&](std::size_t k) { return c->vertex(static_cast<int>(k))->insertion_radius(); };
+    const double radius = std::min(radius_at(i), radius_at(j));
+    if (radius * radius > ball.squared_shortest) found(i, j, radius);
+  });
+}
+
+/// Whether no mesh can do without a tetrahedron like this one: with the shortest edge between two features that meet in another of
+/// its corners, at an angle too small for the ratio bound. Refined, it would only be there again, smaller.
+template <class Cell_handle>
+bool is_hopeless(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners, double ratio,
+                 const Narrow_angles_3& narrow) {
+  const double least = ratio * std::sqrt(ball.squared_shortest);
+  const auto on = [&](std::size_t i) { return feature_of(c->vertex(static_cast<int>(i))); };
+  bool is_hopeless = false;
+  for_each_shortest_edge(ball, corners, [&](std::size_t i, std::size_t j) {
+    if (on(i).dimension > 2 || on(j).dimension > 2) return;
+    const double limit = std::asin(1 / (2 * ratio)) * 180 / std::numbers::pi;
+    for (std::size_t k = 0; k < 4; ++k)
+      is_hopeless |= k != i && k != j && triangle_circumradius(corners[i], corners[j], corners[k]) > least &&
+                     narrow.are_narrow(on(k), on(i), on(j), limit);
+  });
+  return is_hopeless;
+}
+
+/// What the Steiner point of a tetrahedron has for an insertion radius at least, however close to other vertices it is: that of the ends
+/// of the shortest edge. For an edge as short as an angle makes it, that is what it would have without the angle. So no
+/// point comes closer to a small angle than those did that are there already, for whose sake it is inserted, and none of
+/// what follows from it (the argument of J. Shewchuk and H. Si, SoCG 2014, who leave such tetrahedra alone).
+template <class Cell_handle>
+double inherited_radius(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) {
+  double inherited = 0;
+  for_each_narrow_edge(c, ball, corners, [&](std::size_t, std::size_t, double radius) { inherited = std::max(inherited, radius); });
+  return inherited;
+}
+
+/// What keeps a tetrahedron's splits from going on for ever next to small angles: a split on its behalf may not make
+/// edges shorter than this there.
+///
+/// Half its shortest edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on features
+/// that meet at a small angle the smaller of their insertion radii: the edge is as short as the angle makes it, and splits
+/// may go on towards the place where they meet. Where that is a vertex, pieces that do not touch it may be split down to half
+/// of the edge after all: away from the vertex its length is bounded from below. That costs as many points as insertion radii
+/// fit the edge more than once, so it is done up to a ratio of `most_points` only. A tetrahedron that is only too large may
+/// also halve its circumradius.
+template <class Cell_handle>
+Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners, bool is_over_ratio,
+                        const Acute_neighborhood_3& acute) {
+  constexpr double most_points = 8;
+  Split_guard guard{.floor = 0.5 * std::sqrt(ball.squared_shortest), .where = corners, .count = 4,
+                    .reach = 4 * std::sqrt(ball.squared_radius)};
+  for_each_narrow_edge(c, ball, corners, [&](std::size_t i, std::size_t j, double radius) {
+    guard.floor = std::max(guard.floor, radius);
+    const Feature_id a = feature_of(c->vertex(static_cast<int>(i))), b = feature_of(c->vertex(static_cast<int>(j)));
+    if (!acute.explains(a, corners[i], b, corners[j])) return;
+    guard.reach = std::numeric_limits<double>::infinity();  // it is next to the angle, however large
+    const bool is_at_wedge = !acute.meet_at_vertices_only(a, b);
+    guard.is_at_wedge |= is_at_wedge;
+    if (is_at_wedge || radius * radius > most_points * most_points * ball.squared_shortest) return;
+    guard.meeting = {a, b};
+    guard.floor_apart = 0.5 * std::sqrt(ball.squared_shortest);
+  });
+  if (!is_over_ratio) guard.floor = std::min(guard.floor, 0.5 * std::sqrt(ball.squared_radius));
+  guard.floor_apart = std::min(guard.floor_apart, guard.floor);
+  return guard;
+}
+
+}  // namespace pgdr
+
+#endif
