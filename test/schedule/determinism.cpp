@@ -21,18 +21,23 @@ void body(int repetitions) {
   require_same_mesh(pgdr::read_plc(data_file("winged_body_in_box.poly")), around_the_body(), repetitions);
 }
 
-void model(const char* name, double radius, int repetitions) {
+void model(const char* name, double radius, int repetitions, const pgdr::Parameters& parameters) {
   CAPTURE(name);
   const auto path = input_model(name);
-  pgdr::Parameters many_leaves;
-  many_leaves.outside_points = 10;  // for a model of moderate size to have tasks enough
   if (!path) PGDR_SKIP("the real models are not here");
-  require_same_mesh(pgdr::read_plc(*path), size(radius), repetitions, many_leaves);
+  require_same_mesh(pgdr::read_plc(*path), size(radius), repetitions, parameters);
 }
 
-void joint(int repetitions) { model("a03_joint.off", 0.02, repetitions); }
-void knot(int repetitions) { model("a11_knot2.off", 0.007, repetitions); }
-void airplane(int repetitions) { model("a19_airplane_in_box.poly", 0.9, repetitions); }
+/// For a model of moderate size to have tasks enough.
+pgdr::Parameters many_leaves() {
+  pgdr::Parameters parameters;
+  parameters.outside_points = 10;
+  return parameters;
+}
+
+void joint(int repetitions) { model("a03_joint.off", 0.02, repetitions, many_leaves()); }
+void knot(int repetitions) { model("a11_knot2.off", 0.007, repetitions, {}); }  // many leaves would hold millions outside
+void airplane(int repetitions) { model("a19_airplane_in_box.poly", 0.9, repetitions, many_leaves()); }
 
 }  // namespace
 
