@@ -95,9 +95,7 @@ class Acute_neighborhood_3 {
   /// notice of features that meet, does not know such distances.
   bool explains(const Feature_id& of_p, const Vec_3& p, const Feature_id& of_q, const Vec_3& q) const {
     if (of_p == of_q || !has_angles(of_p) || !has_angles(of_q)) return false;
-    if (of_p.dimension != of_q.dimension &&
-        contains_segment((of_p.dimension == 2 ? of_p : of_q).index, (of_p.dimension == 1 ? of_p : of_q).index))
-      return false;
+    if (narrow_->lies_on(of_p, of_q) || narrow_->lies_on(of_q, of_p)) return false;
     const double gap2 = squared_distance(p, q);
     return std::ranges::any_of(angles_at(of_p), [&](Place place) {
       return gap2 >= squared_gap(place, p) && std::ranges::binary_search(angles_at(of_q), place);
@@ -140,7 +138,6 @@ class Acute_neighborhood_3 {
     at_segment_.resize(domain.segments.size());
     ends_wedge_.resize(domain.vertices.size(), false);
     at_facet_.resize(domain.facets.size());
-    segments_of_facet_.resize(domain.facets.size());
     for (Index s = 0; s < domain.segments.size(); ++s)
       for (const Index v : domain.segments[s].vertices) {
         if (is_small(angles.vertex_deg[v])) at_segment_[s].push_back(v);
@@ -152,7 +149,6 @@ class Acute_neighborhood_3 {
         if (is_small(angles.vertex_deg[v])) at_facet_[f].push_back(v);
       for (const Index s : domain.facets[f].segments)
         if (is_small(angles.segment_deg[s])) at_facet_[f].push_back(segment_bit | s);
-      segments_of_facet_[f] = domain.facets[f].segments;
     }
     position_.reserve(domain.vertices.size());
     for (const auto& p : domain.vertices) position_.push_back(to_vec(p));
@@ -167,9 +163,6 @@ class Acute_neighborhood_3 {
   static bool has_angles(const Feature_id& f) { return f.dimension == 1 || f.dimension == 2; }
   const std::vector<Place>& angles_at(const Feature_id& f) const {
     return f.dimension == 1 ? at_segment_[f.index] : at_facet_[f.index];
-  }
-  bool contains_segment(Index facet, Index segment) const {
-    return std::binary_search(segments_of_facet_[facet].begin(), segments_of_facet_[facet].end(), segment);
   }
 
   double protected_radius(Place place) const {
@@ -199,7 +192,6 @@ class Acute_neighborhood_3 {
   std::vector<bool> is_acute_vertex_;
   std::vector<bool> ends_wedge_;                           ///< vertices of segments with small dihedral angles
   std::vector<std::vector<Place>> at_segment_, at_facet_;  ///< the small angles there, ascending
-  std::vector<std::vector<Index>> segments_of_facet_;
   std::vector<std::array<Index, 2>> ends_;
   std::vector<Vec_3> position_;
   std::vector<double> vertex_angle_, segment_angle_;

@@ -33,6 +33,11 @@ class Narrow_angles_3 {
     }
   }
 
+  /// Whether `p` is part of the other feature, a segment or facet, or is the same. \pre no dimension is above 2
+  bool lies_on(const Feature_id& p, const Feature_id& feature) const {
+    return any_at(p, [&](const Feature_id& f) { return f == feature; });
+  }
+
   /// Whether a point at `u`, a domain vertex or on a segment, is where two features meet at less than `limit` degrees, of which the
   /// points at `p` and `q` are on one each. \pre dimensions are 2 at most
   bool are_narrow(const Feature_id& u, const Feature_id& p, const Feature_id& q, double limit) const {
@@ -50,10 +55,6 @@ class Narrow_angles_3 {
   bool any_at(const Feature_id& p, const Predicate& predicate) const {
     if (p.dimension == 2) return predicate(p);
     return std::ranges::any_of(p.dimension == 1 ? at_segment_[p.index] : at_vertex_[p.index], predicate);
-  }
-
-  bool lies_on(const Feature_id& p, const Feature_id& feature) const {
-    return any_at(p, [&](const Feature_id& f) { return f == feature; });
   }
 
   bool meet_narrowly(const Feature_id& a, const Feature_id& b, const Feature_id& u, double limit) const {
