@@ -189,6 +189,7 @@ int run_mesh(const Mesh_arguments& arguments) {
     run.steiner_points = statistics.steiner_points;
     run.unrecovered = statistics.unrecovered;
     run.schedule = statistics.schedule;
+    run.serial_share = serial_share(statistics);
     timer.end_phases(statistics.seconds);
     progress.show("numbering");
     mesh = indexed_mesh_3(std::move(refined));

@@ -74,6 +74,7 @@ std::string stats_json(const Run_summary& run) {
                      {"unrecovered", run.unrecovered},
                      {"threads", run.threads},
                      {"seconds", seconds},
+                     {"serial_share", run.serial_share},
                      {"peak_memory_bytes", run.peak_memory_bytes},
                      {"mesh_checksum", checksum},
                      {"stop", stop_reason_name(run.stop)},

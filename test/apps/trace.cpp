@@ -115,6 +115,10 @@ void check_run(const Traced_run& run, unsigned threads) {
     CHECK(e["serial_share"].get<double>() >= 0);
     CHECK(e["serial_share"].get<double>() <= 1.001);
   }
+  const double meshing = run.stats["seconds"]["triangulation"].get<double>() + run.stats["seconds"]["conforming"].get<double>() +
+                         run.stats["seconds"]["labelling"].get<double>() + run.stats["seconds"]["refinement"].get<double>();
+  const double side_by_side = schedule["seconds"].get<double>() * (1 - schedule["serial_share"].get<double>());
+  CHECK(run.stats["serial_share"].get<double>() == Approx(1 - side_by_side / meshing).margin(1e-3));
   CHECK(tasks == counted_tasks);
   CHECK(most_ready >= 8);
   CHECK(traced + schedule["settled"].get<std::size_t>() == counted);

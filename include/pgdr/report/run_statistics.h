@@ -30,6 +30,14 @@ struct Run_statistics {
   Schedule_statistics schedule;
 };
 
+/// The share of the time from the domain to the refined mesh in which there was work for one thread only, 0 to 1: all of it
+/// but what refinement does in leaf tasks beside others and in parallel loops.
+inline double serial_share(const Run_statistics& run) {
+  double total = 0;
+  for (const auto& [phase, seconds] : run.seconds) total += seconds;
+  return total > 0 ? 1 - (run.schedule.seconds - run.schedule.serial_seconds) / total : 0;
+}
+
 }  // namespace pgdr
 
 #endif

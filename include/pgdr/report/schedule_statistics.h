@@ -20,7 +20,7 @@ struct Epoch_statistics {
   std::size_t inserted = 0;     ///< points
   std::size_t inserted_alone = 0;  ///< points inserted while only one task could be worked on
   double seconds = 0;           ///< wall time
-  double serial_seconds = 0;    ///< of them neither in leaf tasks nor in parallel loops
+  double serial_seconds = 0;    ///< of them with work for one thread only: in lone leaf tasks, or in neither tasks nor parallel loops
 };
 
 /// One leaf task, or one section of work between two waves.
@@ -45,7 +45,7 @@ struct Schedule_statistics {
   std::size_t far_parcels = 0;  ///< that had to be delivered between waves, beyond the leaves that touch
   std::size_t settled = 0;      ///< points inserted alone because a facet was torn beyond one leaf
   double seconds = 0;
-  double serial_seconds = 0;
+  double serial_seconds = 0;    ///< of them with work for one thread only
   std::array<double, 3> root_lower{};  ///< lower corner of the octree's root
   double root_edge = 0;
   std::vector<Task_record> records;  ///< empty unless asked for

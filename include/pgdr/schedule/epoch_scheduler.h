@@ -213,11 +213,7 @@ class Epoch_scheduler {
     results_.assign(runnable_.size(), {});
     if (runnable_.size() == 1) {
       recorder_.section("wave", false, begin);
-      if (!run_divided(quota)) {
-        run_leaf(0, quota);
-        epoch.inserted_alone += results_[0].inserted;
-        epoch.most_ready = std::max<std::size_t>(epoch.most_ready, 1);
-      }
+      if (!run_divided(quota)) run_alone(0, quota);
     } else {
       run_graph(begin, quota);
     }
@@ -260,10 +256,16 @@ class Epoch_scheduler {
       Epoch_statistics& epoch = statistics_.epochs.back();
       epoch.most_ready = std::max(epoch.most_ready, ready);
     }
-    for (const std::uint32_t k : alone) {
-      run_leaf(k, quota);
-      statistics_.epochs.back().inserted_alone += results_[k].inserted;
-    }
+    for (const std::uint32_t k : alone) run_alone(k, quota);
+  }
+
+  void run_alone(std::size_t k, std::size_t quota) {
+    const double begin = recorder_.now();
+    run_leaf(k, quota);
+    recorder_.lone_leaf(begin);
+    Epoch_statistics& epoch = statistics_.epochs.back();
+    epoch.inserted_alone += results_[k].inserted;
+    epoch.most_ready = std::max<std::size_t>(epoch.most_ready, 1);
   }
 
   /// Whether the only leaf's work may be divided; the paper's octree is left as the paper has it.

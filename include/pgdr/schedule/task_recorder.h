@@ -39,8 +39,8 @@ class Task_recorder {
     add(r, begin, now());
   }
 
-  /// A section between waves; from the scheduler's own thread. Returns its length.
-  double section(const char* name, bool parallel, double begin) {
+  /// A section between waves; from the scheduler's own thread.
+  void section(const char* name, bool parallel, double begin) {
     const double end = now();
     if (!parallel) serial_ += end - begin;
     if (keep_) {
@@ -49,10 +49,12 @@ class Task_recorder {
       r.name = name;
       add(r, begin, end);
     }
-    return end - begin;
   }
 
-  /// Seconds in serial sections so far.
+  /// A leaf task, recorded by `leaf`, beside which there was no other.
+  void lone_leaf(double begin) { serial_ += now() - begin; }
+
+  /// Seconds in serial sections and lone tasks so far.
   double serial() const { return serial_; }
 
   std::vector<Task_record> take() {
