@@ -125,6 +125,28 @@ TEST_CASE("A projected point is the foot of the perpendicular", "[conforming]") 
   }
 }
 
+TEST_CASE("A point is lifted along the dominant axis, onto a triangle off the plane", "[conforming]") {
+  Seeded_random random(8);
+  for (int k = 0; k < 1000; ++k) {
+    CAPTURE(k);
+    Vec_3 normal = random_vec(random);
+    normal = (1 / pgdr::length(normal)) * normal;
+    const Vec_3 origin = random_vec(random);
+    const pgdr::Facet_plane_3 plane({origin.x, origin.y, origin.z}, {normal.x, normal.y, normal.z});
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+      if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+    const auto corner = [&] { return plane.project(random_vec(random)) + random.between(-1e-3, 1e-3) * normal; };
+    const Vec_3 a = corner(), b = corner(), c = corner();
+    const Vec_3 n = pgdr::cross(b - a, c - a);
+    if (pgdr::length(n) < 0.1) continue;
+    const Vec_3 m = plane.project(0.3 * a + 0.3 * b + 0.4 * c), lifted = plane.lift(m, a, b, c);
+    CHECK(std::abs(pgdr::dot(lifted - a, n)) < 1e-13);
+    for (int i = 0; i < 3; ++i)
+      if (i != axis) CHECK(lifted[i] == m[i]);
+  }
+}
+
 TEST_CASE("Orientations in a facet are counterclockwise about its normal", "[conforming]") {
   using K = pgdr::Default_kernel;
   Seeded_random random(7);

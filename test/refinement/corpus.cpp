@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small PLCs that some version of the mesher failed on, made by bench/random_plcs.py --keep.
+// Small PLCs that some version of the mesher failed on, most of them made by bench/random_plcs.py --keep.
 #include <algorithm>
 #include <filesystem>
 #include <limits>

@@ -89,13 +89,26 @@ class Constraint_complex_3 {
 
   explicit Constraint_complex_3(const Domain& domain) : domain_(&domain) {
     planes_.reserve(domain.facets.size());
-    for (const auto& f : domain.facets) planes_.emplace_back(f.origin, f.normal);
+    for (const auto& f : domain.facets) {
+      const Facet_plane_3& plane = planes_.emplace_back(f.origin, f.normal);
+      is_bent_.push_back(std::ranges::any_of(f.vertices, [&](Index v) {
+        const Vec_3 p = to_vec(domain.vertices[v]);
+        return length(plane.project(p) - p) > flatness * domain.diagonal;
+      }));
+    }
     corner_subsegments_.resize(domain.vertices.size());
     sides_.resize(domain.facets.size(), {unknown_side, unknown_side});
   }
 
   const Domain& domain() const { return *domain_; }
   const Facet_plane_3& plane(Index facet) const { return planes_[facet]; }
+
+  /// Where a point of a facet's plane that is in a subfacet goes: onto the subfacet, where the vertices of a fused facet are off its plane. If
+  /// all points were in the plane there would be a step along its segments, as high as these are off.
+  Vec_3 on_sheet(std::uint32_t i, const Vec_3& m) const {
+    const Subfacet& t = subfacets_[i];
+    return is_bent_[t.facet] ? planes_[t.facet].lift(m, position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2])) : m;
+  }
 
   Subsegment& subsegment(std::uint32_t i) { return subsegments_[i]; }
   const Subsegment& subsegment(std::uint32_t i) const { return subsegments_[i]; }
@@ -288,7 +301,10 @@ class Constraint_complex_3 {
   }
 
   const Domain* domain_;
+  static constexpr double flatness = 1e-12;  ///< of the diagonal: how far vertices of a flat facet may be off its plane
+
   std::vector<Facet_plane_3> planes_;
+  std::vector<bool> is_bent_;
   Slot_array<Subsegment> subsegments_;
   Slot_array<Subfacet> subfacets_;
   std::vector<std::array<std::int32_t, 2>> sides_;

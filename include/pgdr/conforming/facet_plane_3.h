@@ -2,6 +2,7 @@
 #ifndef PGDR_CONFORMING_FACET_PLANE_3_H
 #define PGDR_CONFORMING_FACET_PLANE_3_H
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,6 +32,19 @@ class Facet_plane_3 {
     else
       q = p - dot(p - origin_, normal_) * normal_;
     return q;
+  }
+
+  /// Moves m, a point of the plane, along the dominant axis onto a triangle that it is in as seen along that axis. What is
+  /// interpolated is how far the corners are off the plane, which keeps rounding small.
+  Vec_3 lift(Vec_3 m, const Vec_3& a, const Vec_3& b, const Vec_3& c) const {
+    const int i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
+    const auto offset = [this](const Vec_3& p) { return dot(p - origin_, normal_) / normal_[axis_]; };
+    const auto area = [i, j](const Vec_3& u, const Vec_3& v) { return u[i] * v[j] - u[j] * v[i]; };
+    const double at_a = offset(a), at_b = offset(b), at_c = offset(c), whole = area(b - a, c - a);
+    if (whole == 0) return m;
+    const double at_m = at_a + (area(m - a, c - a) * (at_b - at_a) + area(b - a, m - a) * (at_c - at_a)) / whole;
+    m[axis_] += std::clamp(at_m, std::min({at_a, at_b, at_c}), std::max({at_a, at_b, at_c}));
+    return m;
   }
 
   /// Sign of the area of (a, b, c) projected along the dominant axis, positive when counterclockwise about the

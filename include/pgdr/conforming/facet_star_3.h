@@ -124,8 +124,11 @@ class Facet_star_3 {
                                                        t.vertices[2]->point(), p) == CGAL::ON_BOUNDED_SIDE;
   }
 
-  /// The star is a disk of counterclockwise triangles: p is strictly left of every edge, and no vertex starts two.
+  /// The star is a disk of counterclockwise triangles: p is strictly left of every edge, and no vertex starts two. What it
+  /// replaces has no vertices inside, which would be lost: it has two triangles fewer than sides.
   bool sees_all(const Complex& complex, const Point& p) const {
+    const std::size_t sides = edges_.size() + (split_ == Complex::none ? 0 : 1);
+    if (removed_.size() + 2 != sides) return false;
     for (const Edge& e : edges_) {
       if (complex.orientation(facet_, e.source->point(), e.target->point(), p) != CGAL::POSITIVE) return false;
       int starts = 0;

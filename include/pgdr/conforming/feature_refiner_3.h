@@ -150,15 +150,13 @@ class Feature_refiner_3 {
   /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
   Split_outcome split_subfacet(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
     const auto& t = complex_.subfacet(slot);
-    const Vec_3 m = split_points_.of_subfacet(slot, reason);
+    Vec_3 m = split_points_.of_subfacet(slot, reason);
     if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
     if (reason == Split_reason::encroached && split_points_.is_subfacet_protected(slot)) return Split_outcome::refused;
     if (!region_.contains(m) || needs_to_be_alone(t.facet, m, length(m - position(t.vertices[0]))))
       return point_elsewhere(m, complex_.subfacet_id(slot), false);
     if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
-    const Point p(m.x, m.y, m.z);
-
-    const Sheet_place at = walk_in_sheet(complex_, slot, p, territory());
+    const Sheet_place at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
     if (at.is_foreign) return point_elsewhere(m, complex_.subfacet_id(slot), false);
     // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
     const bool yields = reason != Split_reason::flat;
@@ -166,6 +164,8 @@ class Feature_refiner_3 {
       return yields ? split_subsegment(s, reason_for_redirect(reason), guard) : Split_outcome::refused;
     };
     if (at.subsegment != Complex::none) return give_way(at.subsegment);
+    if (const Vec_3 q = complex_.on_sheet(at.subfacet, m); region_.contains(q)) m = q;
+    const Point p(m.x, m.y, m.z);
     if (const auto r = search_.from_subfacet(p, at.subfacet, slot); r != Search_result::found)
       return blocked(r == Search_result::foreign, m, complex_.subfacet_id(slot), false);
     features_.gather(complex_, cavity_);
