@@ -250,6 +250,8 @@ class Constraint_complex_3 {
   }
 
  private:
+  static constexpr double flatness = 1e-12;  ///< of the diagonal: how far vertices of a flat facet may be off its plane
+
   /// What lies across an edge gets another subfacet on this side of it.
   void replace_neighbor(std::uint32_t code, std::uint32_t from, std::uint32_t to) {
     if (code & subsegment_bit) {
@@ -301,8 +303,6 @@ class Constraint_complex_3 {
   }
 
   const Domain* domain_;
-  static constexpr double flatness = 1e-12;  ///< of the diagonal: how far vertices of a flat facet may be off its plane
-
   std::vector<Facet_plane_3> planes_;
   std::vector<bool> is_bent_;
   Slot_array<Subsegment> subsegments_;

@@ -135,7 +135,7 @@ class Facet_star_3 {
       for (const Edge& f : edges_) starts += f.source == e.source;
       if (starts != 1) return false;
     }
-    return edges_.size() >= 2;
+    return true;
   }
 
   static void join_back(Complex& complex, const Edge& e, std::uint32_t t) {

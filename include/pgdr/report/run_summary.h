@@ -30,7 +30,7 @@ struct Run_summary {
   std::size_t unrecovered = 0;
   unsigned threads = 1;
   Schedule_statistics schedule;
-  double serial_share = 0;  ///< see there
+  double serial_share = 0;  ///< `serial_share(Run_statistics)`
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
   double total_seconds = 0;
   std::size_t peak_memory_bytes = 0;
