@@ -114,6 +114,7 @@ class Interval_refiner {
   }
 
   double estimate_outside(const Worklist&, double) const { return 0; }
+  pgdr::Volumes volumes() const { return {1, 0}; }
 
   // Intervals are always fine enough for leaves.
   struct Division {

@@ -44,10 +44,13 @@ struct List_engine {
   void unite(Worklist&, std::vector<Worklist>&, double, double) const {}
   pgdr::Work_estimate estimate(const Worklist& list) const { return list.estimate; }
   double estimate_outside(const Worklist& list, double) const { return list.outside; }
+  pgdr::Volumes volumes() const { return all; }
   pgdr::Scan_result scan(const pgdr::Region_3& box, const pgdr::Region_3& hole, double bound,
                          const Worklist& list) const {
     return {finer(box, hole, bound), list.coarsest_radius};
   }
+
+  pgdr::Volumes all{1, 0};
 
   /// Whether all elements that meet a box, but not those inside a hole in it, are smaller than a bound.
   std::function<bool(const pgdr::Region_3&, const pgdr::Region_3&, double)> finer =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -218,4 +219,16 @@ TEST_CASE("A split has to be worth what it costs outside the domain", "[schedule
   s.add_work(s.at(0.1, 0.1, 0.1), 1e6);
   s.leaves[s.at(0.9, 0.9, 0.9)].work.outside = 1e9;
   CHECK(s.decide());
+}
+
+TEST_CASE("The first leaf is split where leaves that are small beside the domain are worth what they cost outside", "[schedule]") {
+  for (const auto& [inside, edge] : {std::pair{0.9, 0.25}, {0.1, 0.25}, {0.01, 0.0625}})
+    for (const double cost : {0.4e6, 0.6e6}) {
+      CAPTURE(inside, cost);
+      Situation s(uniform(0));
+      s.add_work(0, 1e6);
+      s.engine.all = {inside, cost * std::pow(pgdr::zone_target(edge), 3)};
+      CHECK(s.decide() == (cost < 0.5e6));
+      CHECK(s.leaves[0].final == (cost > 0.5e6));
+    }
 }

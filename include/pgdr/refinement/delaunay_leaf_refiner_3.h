@@ -22,6 +22,7 @@
 #include <pgdr/refinement/leaf_refiner.h>
 #include <pgdr/refinement/leaf_worklist_3.h>
 #include <pgdr/refinement/obstacles_3.h>
+#include <pgdr/refinement/outside_cells_3.h>
 #include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/split_guard_3.h>
@@ -103,13 +104,12 @@ class Delaunay_leaf_refiner_3 {
     return list;
   }
 
-  /// Adds the tetrahedra outside the domain. \pre no other thread works, and none but one ever did
+  /// Adds the tetrahedra outside the domain. \pre no other thread works
   void add_outside(Worker& w, Worklist& list, double outside_target) {
     Leaf_task task;
     task.outside_target = outside_target;
     open(w, task, list);
-    for (auto c = tr_.finite_cells_begin(); c != tr_.finite_cells_end(); ++c)
-      if (c->subdomain() == 0) classify(w, c, list);
+    for (const Cell_handle c : outside_cells(tr_)) classify(w, c, list);
     close(w, list);
   }
 
@@ -292,27 +292,36 @@ class Delaunay_leaf_refiner_3 {
     return result;
   }
 
-  /// What the deferred elements ask for, from a sample of them.
+  /// What the deferred elements ask for, from a sample of them; a point each at least.
   Work_estimate estimate(const Worklist& list) const {
-    constexpr std::size_t samples = 64;
+    constexpr std::size_t samples = 1024;
     Work_estimate e;
     const std::size_t n = list.deferred_.size(), step = (n + samples - 1) / samples;
     for (std::size_t k = 0; k < n; k += step) {
       const Cell_id& id = list.deferred_[k];
       if (!id.is_live()) continue;
-      const double size = criteria_.size_at(tetrahedron_ball(tetrahedron_points(id.cell)).center);
-      e.insertions += static_cast<double>(std::min(step, n - k)) * expected_insertions(static_cast<double>(id.radius), size);
+      const Tetrahedron_ball ball = tetrahedron_ball(tetrahedron_points(id.cell));
+      const double size = criteria_.size_at(ball.center);
+      e.insertions += static_cast<double>(std::min(step, n - k)) * std::max(1.0, expected_vertices(ball.volume, size));
       e.largest_size = std::max(e.largest_size, size);
     }
     return e;
   }
 
+  /// What the elements of a worklist that are outside the domain ask for, to be refined to the target.
   double estimate_outside(const Worklist& list, double target) const {
     double insertions = 0;
     for (const Cell_id& id : list.outside_)
       if (static_cast<double>(id.radius) > target && id.is_live())
-        insertions += expected_insertions(static_cast<double>(id.radius), target);
+        insertions += expected_vertices(tetrahedron_ball(tetrahedron_points(id.cell)).volume, target);
     return insertions;
+  }
+
+  /// \pre no other thread works
+  Volumes volumes() const {
+    const Vec_3 edges = hull_.box().upper - hull_.box().lower;
+    const double whole = edges.x * edges.y * edges.z, outside = outside_volume(tr_, whole);
+    return {whole - outside, outside};
   }
 
   /// Whether every tetrahedron that meets the box, but is not inside the hole, has m < bound. Reads only.
@@ -568,11 +577,22 @@ class Delaunay_leaf_refiner_3 {
   Obstruction find_outside(Worker& w, const Attempt& t) const {
     Cavity_3<Tr>& cavity = w.features_.cavity();
     const Point p = t.point();
-    std::optional<typename Tr::Facet> encroached;
-    if (!cavity.find(p, t.id.cell, [&](Cell_handle d) { return !(encroached = encroached_subfacet_of(d, p)); })) {
+    // A point outside has a large cavity, more often than not with a feature in the way: better to know at the first of its cells.
+    std::optional<typename Tr::Facet> subfacet;
+    std::uint32_t subsegment = Complex::none;
+    const auto is_clear = [&](Cell_handle d) {
+      subfacet = encroached_subfacet_of(d, p);
+      if (!subfacet) subsegment = subsegment_in_the_way(d, p);
+      return !subfacet && subsegment == Complex::none;
+    };
+    if (!cavity.find(p, t.id.cell, is_clear)) {
       if (cavity.is_foreign()) return Obstruction::foreign;
-      if (!encroached || !is_split_anyway(*encroached)) return Obstruction::stays;
-      w.obstacles_.set_subfacet(complex_, encroached->first->subfacet(encroached->second));
+      if (subfacet && is_split_anyway(*subfacet))
+        w.obstacles_.set_subfacet(complex_, subfacet->first->subfacet(subfacet->second));
+      else if (subsegment != Complex::none && is_split_anyway(subsegment))
+        w.obstacles_.set_subsegment(complex_, subsegment);
+      else
+        return Obstruction::stays;
       return Obstruction::splits_anyway;
     }
     w.features_.features().gather(complex_, cavity);
@@ -644,8 +664,7 @@ class Delaunay_leaf_refiner_3 {
     return Complex::none;
   }
 
-  /// A subfacet on the cell in whose equatorial ball p lies. A point outside the domain lies in one more often than
-  /// not, and its cavity is large: better to know at the first of its cells.
+  /// A subfacet on the cell in whose equatorial ball p lies.
   std::optional<typename Tr::Facet> encroached_subfacet_of(Cell_handle c, const Point& p) const {
     if (c->has_subfacet())
       for (int i = 0; i < 4; ++i)

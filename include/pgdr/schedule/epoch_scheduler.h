@@ -147,8 +147,9 @@ class Epoch_scheduler {
   }
 
   double outside_target(const Leaf& leaf) const {
-    return refines_outside_ ? std::min(leaf.cap, outside_limit_ > 0 ? outside_limit_ : zone_target(leaf.shortest))
-                            : infinity;
+    const bool stays_alone = leaves_.size() == 1 && leaf.final;
+    if (!refines_outside_ || (stays_alone && outside_limit_ == 0)) return infinity;
+    return std::min(leaf.cap, outside_limit_ > 0 ? outside_limit_ : zone_target(leaf.shortest));
   }
 
   /// Replaces the leaves by those of `next`, which splits the marked ones. \pre no parcel is under way

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -146,6 +147,10 @@ class Split_decision {
 
   /// Whether what is left to do is worth what has to be refined outside the domain for the sake of smaller leaves.
   bool pays() const {
+    double gains = 0;
+    for (std::uint32_t i = 0; i < octree_.size(); ++i)
+      if (split_[i]) gains += gain_[i];
+    if (octree_.size() == 1) return root_pays(gains);
     std::vector<double> target(octree_.size(), std::numeric_limits<double>::infinity());
     for (std::uint32_t j = 0; j < next_.size(); ++j)
       target[parents_[j]] = std::min(target[parents_[j]], zone_target(next_.shortest_touching_edge(j)));
@@ -153,12 +158,16 @@ class Split_decision {
     tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
       if (target[i] < zone_target(leaves_[i].shortest)) cost[i] = engine_.estimate_outside(leaves_[i].work, target[i]);
     });
-    double costs = 0, gains = 0;
-    for (std::uint32_t i = 0; i < octree_.size(); ++i) {
-      costs += cost[i];
-      if (split_[i]) gains += gain_[i];
-    }
-    return costs <= outside_points_ * gains;
+    return std::accumulate(cost.begin(), cost.end(), 0.0) <= outside_points_ * gains;
+  }
+
+  /// The first leaf's work can be divided without a split. Leaves are of more use only when many of them are in the domain: eight all
+  /// touch, and are worked on one after the other. So the cost is that of leaves as small as that.
+  bool root_pays(double gain) const {
+    const Volumes volumes = engine_.volumes();
+    double parts = 4;
+    while (volumes.inside * parts * parts * parts < 8 * std::pow(leaves_[0].edge, 3)) parts *= 2;
+    return expected_vertices(volumes.outside, zone_target(leaves_[0].shortest / parts)) <= outside_points_ * gain;
   }
 
   /// Evaluates the zone condition where the octree changes. False if something was vetoed.
