@@ -3,9 +3,9 @@
 """Meshes small random PLCs that are hard on a mesher, by quality alone, and checks the meshes.
 
 Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only,
-dented hulls of random points, balls with regular folds; some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the
-numbers of those that did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that
-the failure does not need.
+dented hulls of random points, balls with regular folds, blocks with a top that is not quite flat; some of them turned, moved,
+scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the numbers of those that
+did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that the failure does not need.
 
 usage: bench/random_plcs.py [--first N] [--count N] [--kinds KIND,...] [--pgdr PROGRAM] [--limit SECONDS] [--keep FOLDER]
 Needs: cmake --build build/release --target pgdr-app.
@@ -21,7 +21,7 @@ from pathlib import Path
 
 from measure import ROOT, attempt, table
 
-KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball")
+KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball", "bent")
 
 
 def _box(points, facets, half):
@@ -181,6 +181,30 @@ def _ball(rng, points, facets):
         facets += [[0, ring[0][1], ring[0][0]], [1, ring[-1][0], ring[-1][1]]]
         for (a, b), (c, d) in zip(ring, ring[1:]):
             facets += [[a, b, c], [b, d, c]]
+
+
+def _bent(rng, points, facets):
+    """A block whose top is of narrow triangles that are fused, though none lies quite in their plane, perhaps with a facet close below."""
+    turns = sorted(rng.uniform(0, 2 * math.pi) for _ in range(rng.randint(4, 40)))
+    turns = [t for t, after in zip(turns, turns[1:] + [turns[0] + 2 * math.pi]) if after - t > 0.01]
+    n, height, bump = len(turns), 10 ** rng.uniform(-1.5, 0.5), 10 ** rng.uniform(-9, -5.7)
+    for top in (False, True):
+        for t in turns:
+            points.append((math.cos(t), math.sin(t), height + rng.uniform(-bump, bump) if top else 0))
+    hub = [rng.random() ** 3 for _ in turns]
+    points.append(tuple(sum(h * p[c] for h, p in zip(hub, points[n:])) / sum(hub) for c in range(2)) + (height,))
+    for i in range(n):
+        j = (i + 1) % n
+        facets += [[2 * n, n + i, n + j], [i, j, n + j, n + i]]
+    facets.append(list(range(n)))
+    if rng.random() < 0.5:
+        slope = math.tan(_angle(rng, 0.5, 30))
+        for k in range(2):
+            corner = points[n + (n // 2 + k) % n]
+            r = rng.uniform(0.3, 0.8)
+            x, y = (r * (corner[c] - points[2 * n][c]) for c in range(2))
+            points.append((points[2 * n][0] + x, points[2 * n][1] + y, height - min(0.5 * height, slope * math.hypot(x, y))))
+        facets.append([2 * n, 2 * n + 1, 2 * n + 2])
 
 
 def _side(a, b, c, p):
