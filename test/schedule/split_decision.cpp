@@ -222,7 +222,7 @@ TEST_CASE("A split has to be worth what it costs outside the domain", "[schedule
 }
 
 TEST_CASE("The first leaf is split where leaves that are small beside the domain are worth what they cost outside", "[schedule]") {
-  for (const auto& [inside, edge] : {std::pair{0.9, 0.25}, {0.1, 0.25}, {0.01, 0.0625}})
+  for (const auto& [inside, edge] : {std::pair{0.9, 0.25}, {0.1, 0.125}, {0.01, 0.0625}})
     for (const double cost : {0.4e6, 0.6e6}) {
       CAPTURE(inside, cost);
       Situation s(uniform(0));

@@ -45,7 +45,7 @@ pgdr::Plc ball(pgdr::Index n, pgdr::Index m, double pull) {
 bool model(const char* name) {
   CAPTURE(name);
   const auto path = input_model(name);
-  if (path) require_same_mesh(pgdr::read_plc(*path), no_size, 1, {}, 20, 4);
+  if (path) require_same_mesh(pgdr::read_plc(*path), no_size, 1, {}, 15, 4);
   return path.has_value();
 }
 
