@@ -180,27 +180,14 @@ Refined_mesh_3<K> refine_mesh_3(const Piecewise_linear_complex_3<K>& plc, const 
   return refine_mesh_3(std::move(domain), sizing, parameters);
 }
 
-}  // namespace pgdr
+// Compiled in the library, with one engine for both kinds of sizing field: a single size is no boxes.
+extern template Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Command_line_sizing&, const Parameters&);
+extern template Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Command_line_sizing&, const Parameters&);
+template <>
+Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel> domain, const Uniform_sizing_field& sizing,
+                                             const Parameters& parameters);
+extern template Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Uniform_sizing_field&, const Parameters&);
 
-// What the library compiles once for the default kernel, so that programs that use it build fast;
-// src/default_instantiations.cpp holds the definitions.
-#ifndef PGDR_INSTANTIATE
-#define PGDR_INSTANTIATE extern template
-#endif
-namespace pgdr {
-PGDR_INSTANTIATE Domain_3<Default_kernel> make_domain_3(const Plc&, double, bool);
-PGDR_INSTANTIATE std::vector<Input_problem> validate_domain_3(const Domain_3<Default_kernel>&, std::size_t);
-PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Uniform_sizing_field&,
-                                                             const Parameters&);
-PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Command_line_sizing&,
-                                                             const Parameters&);
-PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Uniform_sizing_field&,
-                                                             const Parameters&);
-PGDR_INSTANTIATE Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Command_line_sizing&,
-                                                             const Parameters&);
-PGDR_INSTANTIATE Indexed_mesh_3 indexed_mesh_3(const Refined_mesh_3<Default_kernel>&);
-PGDR_INSTANTIATE Indexed_mesh_3 indexed_mesh_3(Refined_mesh_3<Default_kernel>&&);
 }  // namespace pgdr
-#undef PGDR_INSTANTIATE
 
 #endif

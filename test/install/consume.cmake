@@ -13,7 +13,7 @@ if(WAY STREQUAL "find_package")
   run(${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${prefix})
   set(where -D CMAKE_PREFIX_PATH=${prefix})
 else()
-  set(where -D PGDR_SUBDIRECTORY=${SOURCE_DIR} -D PGDR_SANITIZE=${SANITIZE})
+  set(where -D PGDR_SUBDIRECTORY=${SOURCE_DIR} -D PGDR_SANITIZE=${SANITIZE} -D PGDR_UNITY=${UNITY})
 endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${build} -G ${GENERATOR}
   -D CMAKE_BUILD_TYPE=${BUILD_TYPE}
@@ -22,5 +22,6 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${build} -G ${GENE
   -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
   -D CGAL_DIR=${CGAL_DIR}
   ${where})
-run(${CMAKE_COMMAND} --build ${build})
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+run(${CMAKE_COMMAND} --build ${build} --parallel ${cores})
 run(${build}/consumer)

@@ -5,7 +5,8 @@ mutate.py write NAME OUTPUT     writes the faulty header of a fault below the fo
                                 true one; an error unless the text to be replaced occurs once
 mutate.py check NAME PROGRAM    runs the test cases of a fault with the program that was compiled with it; an error
                                 unless they fail
-mutate.py list                  one line for each fault: its name, the source of its test and its header
+mutate.py list                  one line for each fault: its name, the source of its test, its header, and whether it is among
+                                the few that every run of the tests looks at (quick) or not (slow)
 """
 import json
 import pathlib
@@ -36,8 +37,7 @@ def check(fault, program):
     try:
         run = subprocess.run([program, fault["cases"]], capture_output=True, text=True, timeout=120, preexec_fn=limit_memory)
     except subprocess.TimeoutExpired:
-        print(f"{fault['name']}: caught, the test does not end")
-        return
+        sys.exit(f"{fault['name']}: not caught, the test does not end: a time-out says nothing about what is wrong")
     if "No test" in run.stdout or run.returncode == 0:
         sys.exit(f"{fault['name']}: not caught\n{run.stdout}{run.stderr}")
     lines = [line for line in run.stdout.splitlines() if "FAILED" in line or "SIG" in line]
@@ -47,7 +47,7 @@ def check(fault, program):
 def main():
     faults = {fault["name"]: fault for fault in json.loads((here / "faults.json").read_text())}
     if len(sys.argv) == 2 and sys.argv[1] == "list":
-        print("\n".join(f"{name} {fault['test']} {fault['header']}" for name, fault in faults.items()))
+        print("\n".join(f"{name} {fault['test']} {fault['header']} {'quick' if fault.get('quick') else 'slow'}" for name, fault in faults.items()))
     elif len(sys.argv) == 4 and sys.argv[1] in ("write", "check") and sys.argv[2] in faults:
         {"write": write, "check": check}[sys.argv[1]](faults[sys.argv[2]], sys.argv[3])
     else:

@@ -24,11 +24,11 @@
 #include <pgdr/parallel/thread_arena.h>
 
 #include "catch.h"
+#include "thread_counts.h"
 
 namespace {
 
 constexpr std::size_t sizes[] = {0, 1, 2, 9, 10, 11, 20, 1000, 12345};
-constexpr unsigned thread_counts[] = {1, 2, 3, 8};
 
 }  // namespace
 
@@ -64,7 +64,7 @@ TEST_CASE("more threads than cores really run", "[parallel]") {
 
 TEST_CASE("parallel loops visit every item once, in chunks that are the same for every number of threads",
           "[parallel]") {
-  for (const unsigned threads : thread_counts)
+  for (const unsigned threads : pgdr_test::thread_counts())
     for (const std::size_t n : sizes) {
       INFO(threads << " threads, " << n << " items");
       std::vector<int> visits(n), starts(n);
@@ -100,10 +100,10 @@ TEST_CASE("parallel sums are the same, bit for bit, for every number of threads"
   CHECK(sum(0) == 1);
   CHECK(sum(1) == 1 + terms[0]);
   const double one = pgdr::with_threads(1, [&] { return sum(terms.size()); });
-  for (const unsigned threads : thread_counts)
+  for (const unsigned threads : pgdr_test::thread_counts())
     CHECK(pgdr::with_threads(threads, [&] { return sum(terms.size()); }) == one);
 
-  for (const unsigned threads : thread_counts)
+  for (const unsigned threads : pgdr_test::thread_counts())
     for (const std::size_t n : sizes) {
       const auto multiples = pgdr::with_threads(threads, [n] {
         return pgdr::parallel_collect(n, 10, [](std::size_t first, std::size_t last) {
@@ -131,7 +131,7 @@ TEST_CASE("parallel_sort sorts", "[parallel]") {
 }
 
 TEST_CASE("parallel_walk hands out a list in chunks and returns their values in order", "[parallel]") {
-  for (const unsigned threads : thread_counts)
+  for (const unsigned threads : pgdr_test::thread_counts())
     for (const std::size_t n : sizes) {
       std::forward_list<std::size_t> list;
       for (std::size_t i = n; i > 0; --i) list.push_front(i - 1);
@@ -160,7 +160,7 @@ TEST_CASE("parallel_in_order uses the products in order, of which there are few"
     Product(const Product&) = delete;
     std::string text;
   };
-  for (const unsigned threads : thread_counts)
+  for (const unsigned threads : pgdr_test::thread_counts())
     for (const std::size_t n : sizes) {
       std::string all, expected;
       std::set<const Product*> products;
@@ -179,7 +179,7 @@ TEST_CASE("parallel_in_order uses the products in order, of which there are few"
 }
 
 TEST_CASE("an exception ends parallel_in_order before anything more is used", "[parallel]") {
-  for (const unsigned threads : thread_counts) {
+  for (const unsigned threads : pgdr_test::thread_counts()) {
     std::size_t used = 0;
     const auto run = [&](std::size_t bad_product, std::size_t bad_use) {
       used = 0;

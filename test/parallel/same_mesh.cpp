@@ -19,12 +19,11 @@
 #include "../catch.h"
 #include "../inputs.h"
 #include "../io/temporary_folder.h"
+#include "../thread_counts.h"
 
 using pgdr::Indexed_mesh_3;
 
 namespace {
-
-constexpr unsigned thread_counts[] = {1, 2, 3, 8};
 
 using Refined = pgdr::Refined_mesh_3<pgdr::Default_kernel>;
 using Tetrahedron = std::array<std::uint32_t, 4>;
@@ -110,7 +109,7 @@ TEST_CASE("the arrays, figures and files of a mesh are the same for every number
 
   const pgdr_test::Temporary_folder folder;
   std::string medit, vtu;
-  for (const unsigned threads : thread_counts) {
+  for (const unsigned threads : pgdr_test::thread_counts()) {
     INFO(threads << " threads");
     pgdr::with_threads(threads, [&] {
       const Indexed_mesh_3 again = pgdr::indexed_mesh_3(mesh);
@@ -136,7 +135,7 @@ TEST_CASE("where most cells are outside, and some tetrahedra exempt", "[parallel
     const Refined mesh = refined(shape, 1e9);
     const Indexed_mesh_3 expected = pgdr::with_threads(1, [&] { return pgdr::indexed_mesh_3(mesh); });
     check_canonical(mesh, expected);
-    for (const unsigned threads : thread_counts)
+    for (const unsigned threads : pgdr_test::thread_counts())
       CHECK(pgdr::with_threads(threads, [&] { return same(pgdr::indexed_mesh_3(mesh), expected); }));
   }
 }
@@ -153,20 +152,20 @@ TEST_CASE("the checker says the same for every number of threads", "[parallel]")
   };
   const std::string good = lines_of(1);
   CHECK(good.find("FAIL") == std::string::npos);
-  for (const unsigned threads : thread_counts) CHECK(lines_of(threads) == good);
+  for (const unsigned threads : pgdr_test::thread_counts()) CHECK(lines_of(threads) == good);
 
   std::swap(mesh.tetrahedra[5000][0], mesh.tetrahedra[5000][1]);
   mesh.tetrahedra[7000] = mesh.tetrahedra[100];
   const std::string bad = lines_of(1);
   CHECK(bad.find("orientation FAIL") != std::string::npos);
   CHECK(bad.find("duplicates FAIL") != std::string::npos);
-  for (const unsigned threads : thread_counts) CHECK(lines_of(threads) == bad);
+  for (const unsigned threads : pgdr_test::thread_counts()) CHECK(lines_of(threads) == bad);
 }
 
 TEST_CASE("meshes of no tetrahedron and of one", "[parallel]") {
   Indexed_mesh_3 mesh;
   const pgdr_test::Temporary_folder folder;
-  for (const unsigned threads : thread_counts) {
+  for (const unsigned threads : pgdr_test::thread_counts()) {
     pgdr::with_threads(threads, [&] {
       CHECK(pgdr::mesh_quality(mesh).tetrahedra == 0);
       CHECK(pgdr::mesh_quality(mesh).volume == 0);

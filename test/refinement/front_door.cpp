@@ -22,11 +22,7 @@ using pgdr::Plc;
 
 namespace {
 
-struct Shape {
-  const char* file;
-  double size;
-};
-const Shape shapes[] = {{"cube.poly", 0.15},           {"l_block.poly", 0.2},
+const Sized_shape shapes[] = {{"cube.poly", 0.15},           {"l_block.poly", 0.2},
                         {"cavity.poly", 0.4},          {"two_regions.poly", 0.2},
                         {"plate_with_hole.poly", 0.3}, {"winged_body_in_box.poly", 4}};
 

@@ -51,19 +51,15 @@ double shortest_edge(const pgdr::Indexed_mesh_3& mesh) {
   return std::sqrt(squared);
 }
 
-struct Shape {
-  const char* file;
-  double size;
-};
 constexpr double any_size = std::numeric_limits<double>::infinity();
-const Shape shapes[] = {{"cube.poly", 0.08},          {"l_block.poly", 0.2},           {"cavity.poly", 0.4},
+const Sized_shape sized_shapes[] = {{"cube.poly", 0.08},          {"l_block.poly", 0.2},           {"cavity.poly", 0.4},
                         {"two_regions.poly", 0.2},    {"plate_with_hole.poly", 0.3},   {"plate_with_hole.poly", any_size},
                         {"winged_body_in_box.poly", 4}, {"winged_body_in_box.poly", any_size}};
 
 }  // namespace
 
 TEST_CASE("Every placement ends with the bound kept", "[refinement]") {
-  for (const auto& [file, size] : shapes)
+  for (const auto& [file, size] : sized_shapes)
     for (const double bound : {2.0, 4.0})
       for (const Point_placement placement : policies) {
         CAPTURE(file, size, bound, static_cast<int>(placement));
@@ -74,7 +70,7 @@ TEST_CASE("Every placement ends with the bound kept", "[refinement]") {
 }
 
 TEST_CASE("At a bound of two the type-II ball is empty", "[refinement]") {
-  for (const auto& [file, size] : shapes) {
+  for (const auto& [file, size] : sized_shapes) {
     CAPTURE(file, size);
     const auto plc = pgdr::read_plc(data_file(file));
     const auto mesh = [&](Point_placement p, double bound) { return pgdr::indexed_mesh_3(placed(plc, size, bound, p)); };

@@ -21,6 +21,12 @@ namespace pgdr_test {
 
 using Mesh = pgdr::Refined_mesh_3<pgdr::Default_kernel>;
 
+/// A file of `data/` with a bound on circumradii.
+struct Sized_shape {
+  const char* file;
+  double size;
+};
+
 /// `size` bounds the circumradii; by default nothing does.
 inline Mesh refined(const pgdr::Plc& plc, double size = std::numeric_limits<double>::infinity(),
                     const pgdr::Parameters& parameters = {}) {

@@ -9,14 +9,6 @@
 
 using namespace pgdr_test;
 
-namespace {
-
-pgdr::Command_line_sizing size(double radius) {
-  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(radius));
-}
-
-}  // namespace
-
 TEST_CASE("On a fixed octree the mesh is the same for every number of threads", "[schedule]") {
   const pgdr::Plc cube = pgdr::read_plc(data_file("cube.poly"));
   std::size_t leaves = 1;

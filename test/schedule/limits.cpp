@@ -20,10 +20,6 @@ using namespace pgdr_test;
 
 namespace {
 
-pgdr::Command_line_sizing size(double radius) {
-  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(radius));
-}
-
 pgdr::Plc cube() { return pgdr::read_plc(data_file("cube.poly")); }
 
 pgdr::Parameters on(unsigned threads) {

@@ -14,6 +14,7 @@
 #include "catch.h"
 #include "io/temporary_folder.h"
 #include "refinement/refined.h"
+#include "thread_counts.h"
 
 namespace pgdr_test {
 
@@ -52,6 +53,9 @@ struct Outcome {
   std::uint64_t checksum;
 };
 
+/// A bound on circumradii, the same everywhere.
+inline pgdr::Command_line_sizing size(double radius) { return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(radius)); }
+
 /// What `pgdr mesh -o OUT.mesh` writes.
 inline std::string medit_bytes(const pgdr::Indexed_mesh_3& mesh) {
   const Temporary_folder folder;
@@ -73,8 +77,6 @@ inline pgdr::Command_line_sizing around_the_body() {
   return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(0.9),
                                    {{{-19.89, -5.65, -5.61}, {6.50, 8.05, 5.61}, 0.8}});
 }
-
-constexpr std::array<unsigned, 6> thread_counts{1, 2, 3, 4, 8, 16};
 
 /// Runs with every number of threads, `repetitions` times each, and compares everything with one checked run. There
 /// must be enough to do at once, or nothing would be shown.
@@ -100,7 +102,7 @@ inline void require_same_mesh(const pgdr::Plc& plc, const pgdr::Command_line_siz
   REQUIRE(first.most_ready() >= least_ready);
   parameters.check_zones = false;
   for (int k = 0; k < repetitions; ++k)
-    for (const unsigned threads : thread_counts) {
+    for (const unsigned threads : thread_counts()) {
       parameters.threads = threads;
       const Outcome again(plc, sizing, parameters);
       CAPTURE(k, threads);

@@ -232,3 +232,13 @@ TEST_CASE("The first leaf is split where leaves that are small beside the domain
       CHECK(s.leaves[0].final == (cost > 0.5e6));
     }
 }
+
+TEST_CASE("A domain so thin that rounding leaves nothing of it is not split, and a decision comes to an end", "[schedule]") {
+  for (const double inside : {0.0, -1e-12}) {
+    Situation s(uniform(0));
+    s.add_work(0, 1e6);
+    s.engine.all = {inside, 1};
+    CHECK(!s.decide());
+    CHECK(s.leaves[0].final);
+  }
+}

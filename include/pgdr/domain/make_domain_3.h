@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_pieces.h>
 #include <pgdr/domain/detail/fuse_facets.h>
 #include <pgdr/domain/domain_3.h>
@@ -282,6 +283,8 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
   return domain;
 }
 
+// Compiled in the library.
+extern template Domain_3<Default_kernel> make_domain_3(const Plc&, double, bool);
 }  // namespace pgdr
 
 #endif

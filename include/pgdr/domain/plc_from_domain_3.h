@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/planar_triangulation.h>
 #include <pgdr/domain/domain_3.h>
@@ -142,6 +143,8 @@ Piecewise_linear_complex_3<K> plc_from_domain_3(const Domain_3<K>& domain) {
   return plc;
 }
 
+// Compiled in the library.
+extern template Plc plc_from_domain_3(const Domain_3<Default_kernel>&);
 }  // namespace pgdr
 
 #endif

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
@@ -120,6 +121,8 @@ Small_angles small_angles_3(const Domain_3<K>& domain) {
   return result;
 }
 
+// Compiled in the library.
+extern template Small_angles small_angles_3(const Domain_3<Default_kernel>&);
 }  // namespace pgdr
 
 #endif

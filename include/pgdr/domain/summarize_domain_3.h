@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
@@ -94,6 +95,8 @@ Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pai
   return result;
 }
 
+// Compiled in the library.
+extern template Domain_summary summarize_domain_3(const Domain_3<Default_kernel>&, std::size_t);
 }  // namespace pgdr
 
 #endif

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/intersecting_triangles.h>
 #include <pgdr/domain/domain_3.h>
@@ -186,6 +187,8 @@ std::vector<Input_problem> validate_domain_3(const Domain_3<K>& domain, std::siz
   return problems;
 }
 
+// Compiled in the library.
+extern template std::vector<Input_problem> validate_domain_3(const Domain_3<Default_kernel>&, std::size_t);
 }  // namespace pgdr
 
 #endif

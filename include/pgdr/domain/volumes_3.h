@@ -14,6 +14,7 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_sides.h>
 #include <pgdr/domain/detail/triangle_soup.h>
 #include <pgdr/domain/domain_3.h>
@@ -271,6 +272,8 @@ Volumes_3<K> volumes_3(const Domain_3<K>& domain) {
   return Volumes_3<K>(domain);
 }
 
+// Compiled in the library.
+extern template class Volumes_3<Default_kernel>;
 }  // namespace pgdr
 
 #endif

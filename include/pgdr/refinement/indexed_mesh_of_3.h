@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
 #include <pgdr/parallel/parallel_for.h>
 #include <pgdr/parallel/parallel_reduce.h>
@@ -288,6 +289,9 @@ Indexed_mesh_3 indexed_mesh_3(Refined_mesh_3<K>&& mesh) {
   return builder.finish();
 }
 
+// Compiled in the library.
+extern template Indexed_mesh_3 indexed_mesh_3(const Refined_mesh_3<Default_kernel>&);
+extern template Indexed_mesh_3 indexed_mesh_3(Refined_mesh_3<Default_kernel>&&);
 }  // namespace pgdr
 
 #endif

@@ -147,9 +147,9 @@ class Epoch_scheduler {
   }
 
   double outside_target(const Leaf& leaf) const {
+    if (outside_limit_ > 0) return std::min(leaf.cap, outside_limit_);
     const bool stays_alone = leaves_.size() == 1 && leaf.final;
-    if (!refines_outside_ || (stays_alone && outside_limit_ == 0)) return infinity;
-    return std::min(leaf.cap, outside_limit_ > 0 ? outside_limit_ : zone_target(leaf.shortest));
+    return refines_outside_ && !stays_alone ? std::min(leaf.cap, zone_target(leaf.shortest)) : infinity;
   }
 
   /// Replaces the leaves by those of `next`, which splits the marked ones. \pre no parcel is under way

@@ -165,8 +165,10 @@ class Split_decision {
   /// touch, and are worked on one after the other. So the cost is that of leaves as small as that.
   bool root_pays(double gain) const {
     const Volumes volumes = engine_.volumes();
+    // Rounding may leave nothing of a very thin domain.
+    const double most_parts = std::ldexp(1.0, static_cast<int>(Octree_key::max_level));
     double parts = 4;
-    while (volumes.inside * parts * parts * parts < 8 * std::pow(leaves_[0].edge, 3)) parts *= 2;
+    while (parts < most_parts && volumes.inside * parts * parts * parts < 8 * std::pow(leaves_[0].edge, 3)) parts *= 2;
     return expected_vertices(volumes.outside, zone_target(leaves_[0].shortest / parts)) <= outside_points_ * gain;
   }
 

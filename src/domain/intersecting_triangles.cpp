@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/domain/detail/intersecting_triangles.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include <CGAL/Cartesian_converter.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Object.h>
+#include <CGAL/centroid.h>
+#include <CGAL/intersections.h>
+
+namespace pgdr::domain_detail {
+
+Intersection_finder::Intersection_finder(const Triangle_soup& soup) : soup_(soup) {
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    triangle_boxes_.push_back({soup.triangle(t).bbox(), t});
+}
+
+std::vector<Id_pair> Intersection_finder::triangles() const {
+  std::vector<Id_pair> result;
+  std::vector<Box> boxes = triangle_boxes_;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const std::size_t s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
+    if (soup_.facet[s] != soup_.facet[t] && triangles_meet(s, t)) result.push_back({s, t});
+  });
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+Work_point Intersection_finder::common_point(std::size_t s, std::size_t t) const {
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+  const CGAL::Cartesian_converter<Work_kernel, Exact> to_exact;
+  const CGAL::Object common = CGAL::intersection(to_exact(soup_.triangle(s)), to_exact(soup_.triangle(t)));
+  std::vector<Exact::Point_3> points;
+  if (const auto* point = CGAL::object_cast<Exact::Point_3>(&common)) points = {*point};
+  if (const auto* segment = CGAL::object_cast<Exact::Segment_3>(&common)) points = {segment->source(), segment->target()};
+  if (const auto* triangle = CGAL::object_cast<Exact::Triangle_3>(&common))
+    points = {triangle->vertex(0), triangle->vertex(1), triangle->vertex(2)};
+  if (const auto* polygon = CGAL::object_cast<std::vector<Exact::Point_3>>(&common)) points = *polygon;
+  const Exact::Point_3 middle = CGAL::centroid(points.begin(), points.end(), CGAL::Dimension_tag<0>());
+  return {CGAL::to_double(middle.x()), CGAL::to_double(middle.y()), CGAL::to_double(middle.z())};
+}
+
+std::vector<Id_pair> Intersection_finder::segments_and_triangles(const std::vector<std::array<Index, 2>>& segments) const {
+  std::vector<Id_pair> result;
+  std::vector<Box> boxes = triangle_boxes_, others = segment_boxes(segments);
+  CGAL::box_intersection_d(others.begin(), others.end(), boxes.begin(), boxes.end(),
+                           [&](const Box& a, const Box& b) {
+                             if (segment_meets(segments[a.info()], b.info()))
+                               result.push_back({a.info(), b.info()});
+                           });
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<Id_pair> Intersection_finder::segments(const std::vector<std::array<Index, 2>>& segments) const {
+  std::vector<Id_pair> result;
+  std::vector<Box> boxes = segment_boxes(segments);
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const std::size_t s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
+    if (segments_meet(segments[s], segments[t])) result.push_back({s, t});
+  });
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<Id_pair> Intersection_finder::vertices_and_triangles(const std::vector<Index>& vertices) const {
+  std::vector<Id_pair> result;
+  std::vector<Box> boxes = triangle_boxes_, others;
+  for (Index v : vertices) others.push_back({soup_.point(v).bbox(), v});
+  CGAL::box_intersection_d(others.begin(), others.end(), boxes.begin(), boxes.end(),
+                           [&](const Box& a, const Box& b) {
+                             if (soup_.triangle(b.info()).has_on(soup_.point(static_cast<Index>(a.info()))))
+                               result.push_back({a.info(), b.info()});
+                           });
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<Intersection_finder::Box> Intersection_finder::segment_boxes(const std::vector<std::array<Index, 2>>& segments) const {
+  std::vector<Box> boxes;
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    boxes.push_back({soup_.point(segments[s][0]).bbox() + soup_.point(segments[s][1]).bbox(), s});
+  return boxes;
+}
+
+Intersection_finder::Segment Intersection_finder::segment(Index a, Index b) const { return {soup_.point(a), soup_.point(b)}; }
+
+bool Intersection_finder::triangles_meet(std::size_t s, std::size_t t) const {
+  // Rotate the common vertices to the front.
+  std::array<Index, 3> a = soup_.triangles[s], b = soup_.triangles[t];
+  const auto shared = [](const std::array<Index, 3>& in) {
+    return [&in](Index v) { return std::find(in.begin(), in.end(), v) != in.end(); };
+  };
+  const auto common = std::stable_partition(a.begin(), a.end(), shared(b)) - a.begin();
+  std::stable_partition(b.begin(), b.end(), shared(a));
+  switch (common) {
+    case 0:
+      return CGAL::do_intersect(soup_.triangle(s), soup_.triangle(t));
+    case 1:  // what they have in common beyond the vertex would reach an opposite edge
+      return CGAL::do_intersect(segment(a[1], a[2]), soup_.triangle(t)) ||
+             CGAL::do_intersect(segment(b[1], b[2]), soup_.triangle(s));
+    case 2: {
+      const Work_point p = soup_.point(a[0]), q = soup_.point(a[1]), x = soup_.point(a[2]),
+                       y = soup_.point(b[2]);
+      return CGAL::orientation(p, q, x, y) == CGAL::COPLANAR &&
+             CGAL::coplanar_orientation(p, q, x, y) == CGAL::POSITIVE;
+    }
+    default:
+      return true;
+  }
+}
+
+bool Intersection_finder::segment_meets(const std::array<Index, 2>& s, std::size_t triangle) const {
+  const std::array<Index, 3>& t = soup_.triangles[triangle];
+  const auto corner = [&](Index v) {
+    return static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
+  };
+  const std::size_t i = corner(s[0]), j = corner(s[1]);
+  if (i == 3 && j == 3) return CGAL::do_intersect(segment(s[0], s[1]), soup_.triangle(triangle));
+  if (i < 3 && j < 3) return true;  // along an edge that is no segment of the facet
+  const std::size_t k = i < 3 ? i : j;
+  const Index other = i < 3 ? s[1] : s[0];
+  return soup_.triangle(triangle).has_on(soup_.point(other)) ||
+         CGAL::do_intersect(segment(s[0], s[1]), segment(t[(k + 1) % 3], t[(k + 2) % 3]));
+}
+
+bool Intersection_finder::segments_meet(const std::array<Index, 2>& s, const std::array<Index, 2>& t) const {
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) {
+      if (s[i] != t[j]) continue;
+      const Work_point apex = soup_.point(s[i]), p = soup_.point(s[1 - i]), q = soup_.point(t[1 - j]);
+      return CGAL::collinear(apex, p, q) && !CGAL::collinear_are_ordered_along_line(p, apex, q);
+    }
+  return CGAL::do_intersect(segment(s[0], s[1]), segment(t[0], t[1]));
+}
+
+}  // namespace pgdr::domain_detail

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The front door for the default kernel.
+#include <pgdr/refine_mesh_3.h>
+
+#include <utility>
+
+namespace pgdr {
+
+template Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Command_line_sizing&, const Parameters&);
+template Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Command_line_sizing&, const Parameters&);
+
+template <>
+Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel> domain, const Uniform_sizing_field& sizing,
+                                             const Parameters& parameters) {
+  return refine_mesh_3(std::move(domain), Command_line_sizing(sizing), parameters);
+}
+template Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Uniform_sizing_field&, const Parameters&);
+
+}  // namespace pgdr
