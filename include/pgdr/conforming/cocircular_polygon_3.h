@@ -21,8 +21,7 @@ class Cocircular_polygon_3 {
   using Complex = Constraint_complex_3<Tr>;
   using Vertex_handle = typename Tr::Vertex_handle;
 
-  Cocircular_polygon_3(Tr& tr, Complex& complex, typename Complex::Pool& pool)
-      : tr_(tr), complex_(complex), pool_(pool) {}
+  Cocircular_polygon_3(Complex& complex, typename Complex::Pool& pool) : complex_(complex), pool_(pool) {}
 
   /// Replaces the subfacets around a missing one by present ones. False if 3D has no triangulation of the polygon.
   bool adopt(std::uint32_t slot) {
@@ -105,11 +104,9 @@ class Cocircular_polygon_3 {
     return false;
   }
 
-  bool is_present(Vertex_handle a, Vertex_handle b, Vertex_handle c) const {
-    typename Tr::Cell_handle cell;
-    int i, j, k;
+  bool is_present(Vertex_handle a, Vertex_handle b, Vertex_handle c) {
     return complex_.orientation(facet_, a->point(), b->point(), c->point()) == CGAL::POSITIVE &&
-           tr_.is_facet(a, b, c, cell, i, j, k);
+           star_.find_facet(a, b, c) != typename Tr::Cell_handle();
   }
 
   void replace() {
@@ -122,7 +119,7 @@ class Cocircular_polygon_3 {
   std::uint32_t build(std::size_t i, std::size_t j, std::uint32_t across) {
     const std::size_t k = static_cast<std::size_t>(middle_[i * corners_.size() + j]);
     const std::uint32_t t = complex_.add_subfacet(pool_, corners_[i], corners_[k], corners_[j], facet_);
-    mark_subfacet(tr_, complex_, t);
+    mark_subfacet(complex_, star_, t);
     join(t, 1, across, corners_[i], corners_[j]);
     const std::uint32_t left = k == i + 1 ? edges_[i].outside : build(i, k, t);
     join(t, 2, left, corners_[i], corners_[k]);
@@ -148,7 +145,6 @@ class Cocircular_polygon_3 {
     std::uint32_t outside;
   };
 
-  Tr& tr_;
   Complex& complex_;
   typename Complex::Pool& pool_;
   Vertex_star_3<Tr> star_;

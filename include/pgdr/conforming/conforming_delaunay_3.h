@@ -15,12 +15,11 @@ namespace internal {
 
 /// Queues a present subsegment that some vertex encroaches. If the ball holds any vertex, it holds one of the link.
 template <class Tr>
-void queue_if_encroached_subsegment(const Tr& tr, Feature_refiner_3<Tr>& refiner, std::uint32_t slot) {
+void queue_if_encroached_subsegment(const Tr& tr, Feature_refiner_3<Tr>& refiner, Vertex_star_3<Tr>& star, std::uint32_t slot) {
   const auto& s = refiner.complex().subsegment(slot);
-  typename Tr::Cell_handle c;
-  int i, j;
-  if (!tr.is_edge(s.vertices[0], s.vertices[1], c, i, j)) return;
-  auto around = tr.incident_cells(c, i, j), done = around;
+  const auto c = star.find_edge(s.vertices[0], s.vertices[1]);
+  if (c == typename Tr::Cell_handle()) return;
+  auto around = tr.incident_cells(c, c->index(s.vertices[0]), c->index(s.vertices[1])), done = around;
   do {
     for (int k = 0; k < 4; ++k) {
       const auto v = around->vertex(k);
@@ -33,12 +32,11 @@ void queue_if_encroached_subsegment(const Tr& tr, Feature_refiner_3<Tr>& refiner
 
 /// Queues a present subfacet that one of its two opposite vertices encroaches.
 template <class Tr>
-void queue_if_encroached_subfacet(const Tr& tr, Feature_refiner_3<Tr>& refiner, std::uint32_t slot) {
+void queue_if_encroached_subfacet(const Tr& tr, Feature_refiner_3<Tr>& refiner, Vertex_star_3<Tr>& star, std::uint32_t slot) {
   const auto& t = refiner.complex().subfacet(slot);
-  typename Tr::Cell_handle c;
-  int i, j, k;
-  if (!tr.is_facet(t.vertices[0], t.vertices[1], t.vertices[2], c, i, j, k)) return;
-  const int m = 6 - i - j - k;
+  const auto c = star.find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
+  if (c == typename Tr::Cell_handle()) return;
+  const int m = index_of_fourth<Tr>(c, t.vertices);
   for (const auto v : {c->vertex(m), tr.mirror_vertex(c, m)})
     if (!tr.is_infinite(v) && encroaches(refiner.complex(), t, v)) {
       refiner.note_encroached_subfacet(slot, v);
@@ -52,27 +50,29 @@ void queue_if_encroached_subfacet(const Tr& tr, Feature_refiner_3<Tr>& refiner, 
 template <class Tr>
 void start_segment_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
   auto& complex = refiner.complex();
+  Vertex_star_3<Tr> star;
   const auto slots = static_cast<std::uint32_t>(complex.subsegment_slots());
   for (std::uint32_t s = 0; s < slots; ++s)
-    if (complex.subsegment(s).alive() && !mark_subsegment(tr, complex, s)) refiner.note_missing_subsegment(s);
+    if (complex.subsegment(s).alive() && !mark_subsegment(tr, complex, star, s)) refiner.note_missing_subsegment(s);
   for (std::uint32_t s = 0; s < slots; ++s)
-    if (complex.subsegment(s).present) internal::queue_if_encroached_subsegment(tr, refiner, s);
+    if (complex.subsegment(s).present) internal::queue_if_encroached_subsegment(tr, refiner, star, s);
 }
 
 /// The same for subfacets, once every subsegment is there; cocircular polygons adopt what the triangulation shows.
 template <class Tr>
 void start_facet_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
   auto& complex = refiner.complex();
+  Vertex_star_3<Tr> star;
   const auto slots = [&] { return static_cast<std::uint32_t>(complex.subfacet_slots()); };
   for (std::uint32_t t = 0; t < slots(); ++t)
-    if (complex.subfacet(t).alive() && !complex.subfacet(t).present) mark_subfacet(tr, complex, t);
-  Cocircular_polygon_3<Tr> polygon(tr, complex, refiner.pool());
+    if (complex.subfacet(t).alive() && !complex.subfacet(t).present) mark_subfacet(complex, star, t);
+  Cocircular_polygon_3<Tr> polygon(complex, refiner.pool());
   for (std::uint32_t t = 0; t < slots(); ++t)
     if (complex.subfacet(t).alive() && !complex.subfacet(t).present && !polygon.adopt(t))
       refiner.note_missing_subfacet(t);
   for (std::uint32_t t = 0; t < slots(); ++t)
     if (complex.subfacet(t).alive() && complex.subfacet(t).present)
-      internal::queue_if_encroached_subfacet(tr, refiner, t);
+      internal::queue_if_encroached_subfacet(tr, refiner, star, t);
 }
 
 }  // namespace pgdr

@@ -6,12 +6,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
 
 #include <pgdr/conforming/facet_plane_3.h>
 #include <pgdr/conforming/slot_array.h>
+#include <pgdr/conforming/split_point_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
 
@@ -63,6 +65,9 @@ class Constraint_complex_3 {
     Piece_version version;
     bool present = false;
     std::uint8_t scratch = 0;
+    /// A split for the sake of a vertex with this insertion radius was refused, so that with larger ones it will be, too: distances only
+    /// become smaller.
+    double refused_floor = std::numeric_limits<double>::infinity();
     /// One entry for every subfacet with this edge, in the order in which they came.
     boost::container::small_vector<std::uint32_t, 2> subfacets;
 
@@ -129,6 +134,7 @@ class Constraint_complex_3 {
     s.vertices = {a, b};
     s.segment = segment;
     s.present = false;
+    s.refused_floor = std::numeric_limits<double>::infinity();
     s.subfacets.clear();
     link(a, i);
     link(b, i);
@@ -241,6 +247,16 @@ class Constraint_complex_3 {
   void note_side(Index facet, bool front, std::int32_t subdomain) {
     std::int32_t& s = sides_[facet][front];
     s = s == unknown_side || s == subdomain ? subdomain : mixed_side;
+  }
+
+  /// Of the diametral ball of a subsegment, and of the equatorial ball of a subfacet.
+  double subsegment_radius(std::uint32_t i) const {
+    const auto& v = subsegments_[i].vertices;
+    return 0.5 * length(position(v[1]) - position(v[0]));
+  }
+  double subfacet_radius(std::uint32_t i) const {
+    const auto& v = subfacets_[i].vertices;
+    return triangle_circumradius(position(v[0]), position(v[1]), position(v[2]));
   }
 
   /// Position of the edge of subfacet i whose neighbour code is `code`.

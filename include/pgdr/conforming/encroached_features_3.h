@@ -2,9 +2,11 @@
 #ifndef PGDR_CONFORMING_ENCROACHED_FEATURES_3_H
 #define PGDR_CONFORMING_ENCROACHED_FEATURES_3_H
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
@@ -52,10 +54,19 @@ void for_each_encroached(const Tr& tr, const Constraint_complex_3<Tr>& complex, 
         s, [&](auto c, int) { return c->has_vertex(s.vertices[0]) && c->has_vertex(s.vertices[1]); });
     if (w != typename Tr::Vertex_handle()) subsegment(h, w);
   }
+  // Of each new subfacet its one or two sides in the star, in one pass: there can be thousands of both.
+  std::vector<std::pair<std::uint32_t, typename Tr::Vertex_handle>> across;
+  for (std::size_t k = 0; k < star.size(); ++k)
+    for (int i = 0; i < 4; ++i) {
+      const std::uint32_t t = star[k]->subfacet(i);
+      if (t == Complex::none || i == cavity.apex(k) || tr.is_infinite(star[k]->vertex(i))) continue;
+      if (encroaches(complex, complex.subfacet(t), star[k]->vertex(i))) across.emplace_back(t, star[k]->vertex(i));
+    }
+  const auto by_slot = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(across.begin(), across.end(), by_slot);
   for (const std::uint32_t t : made) {
-    if (!complex.subfacet(t).present) continue;
-    const auto w = first_across(complex.subfacet(t), [&](auto c, int i) { return c->subfacet(i) == t; });
-    if (w != typename Tr::Vertex_handle()) subfacet(t, w);
+    const auto at = std::lower_bound(across.begin(), across.end(), std::make_pair(t, typename Tr::Vertex_handle()), by_slot);
+    if (at != across.end() && at->first == t) subfacet(t, at->second);
   }
 }
 

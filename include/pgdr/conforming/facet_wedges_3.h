@@ -2,6 +2,7 @@
 #ifndef PGDR_CONFORMING_FACET_WEDGES_3_H
 #define PGDR_CONFORMING_FACET_WEDGES_3_H
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/region_3.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
@@ -37,6 +39,17 @@ class Facet_wedges_3 {
   template <class K>
   explicit Facet_wedges_3(const Domain_3<K>& domain) : of_facet_(domain.facets.size()) {
     using namespace domain_detail;
+    for (const auto& f : domain.facets) {
+      Region_3& box = boxes_.emplace_back();
+      box.lower = box.upper = to_vec(domain.vertices[f.vertices.front()]);
+      for (const Index v : f.vertices) {
+        const Vec_3 p = to_vec(domain.vertices[v]);
+        for (int k = 0; k < 3; ++k) {
+          box.lower[k] = std::min(box.lower[k], p[k] - domain.tolerance);
+          box.upper[k] = std::max(box.upper[k], p[k] + domain.tolerance);
+        }
+      }
+    }
     const Facet_edges edges(domain);
     for (Index s = 0; s < domain.segments.size(); ++s) {
       const auto [a, b] = domain.segments[s].vertices;
@@ -53,7 +66,7 @@ class Facet_wedges_3 {
   }
 
   /// Calls `found` with each image of m, a point in the plane of the facet, that is within `distance` of it. Images may be next
-  /// to the other facet instead of on it. `is_usual`: only where the facets meet at less than `usual_limit`.
+  /// to the other facet instead of on it, but are in its bounding box, which says a lot of a strip. `is_usual`: only where the facets meet at less than `usual_limit`.
   template <class Found>
   void for_each_image(Index facet, const Vec_3& m, double distance, bool is_usual, const Found& found) const {
     for (const Wedge& w : of_facet_[facet]) {
@@ -61,7 +74,9 @@ class Facet_wedges_3 {
       const double t = dot(m - w.origin, w.along) / dot(w.along, w.along);
       const Vec_3 foot = w.origin + t * w.along;
       const double h = dot(m - foot, w.inward);
-      if (h > 0 && w.chord * h <= distance) found(Mirror_image{w.other, foot + h * w.other_inward});
+      if (h <= 0 || w.chord * h > distance) continue;
+      const Vec_3 at = foot + h * w.other_inward;
+      if (boxes_[w.other].contains_closed(at)) found(Mirror_image{w.other, at});
     }
   }
 
@@ -74,6 +89,7 @@ class Facet_wedges_3 {
     bool is_usual;
   };
   std::vector<std::vector<Wedge>> of_facet_;
+  std::vector<Region_3> boxes_;  ///< of all facets, with the tolerance within which their vertices are off their planes
 };
 
 }  // namespace pgdr

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -26,6 +27,8 @@
 #include <pgdr/mesh/cavity_3.h>
 
 namespace pgdr {
+
+// Length: splits, images and errands call each other; images and their wedges are to become part of a room for small angles.
 
 /// Splits subsegments and subfacets until none is missing and none encroached: the one place that puts points on
 /// features. Subsegments come first; a facet's point yields to the subsegments that it encroaches, a segment's
@@ -84,6 +87,7 @@ class Feature_refiner_3 {
   void set_region(const Region_3& region, const Region_3& near) {
     region_ = region;
     near_ = near;
+    last_way_ = {};
   }
   /// What may be changed, beside other tasks: everything to begin with. Requests must be for own pieces. A split that
   /// would change more, or look farther, is `elsewhere`.
@@ -100,6 +104,16 @@ class Feature_refiner_3 {
   Feature_queues& stranded() { return stranded_; }
   const Split_elsewhere& elsewhere() const { return elsewhere_; }
 
+  /// Radius of the piece that `step` would split, 0 if it is gone; infinite if it is missing, or anything is torn, so that nothing else
+  /// may come first. \pre not idle
+  double next_radius() const {
+    const bool segment = has_subsegments();
+    const Feature_request& r = segment ? queues_.subsegments[0] : queues_.subfacets[0];
+    if (torn_ || !unlabelled_cells_.empty() || r.reason == Split_reason::missing) return std::numeric_limits<double>::infinity();
+    if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) return 0;
+    return segment ? complex_.subsegment_radius(r.piece.slot) : complex_.subfacet_radius(r.piece.slot);
+  }
+
   /// Handles one request, subsegments before subfacets. \pre not idle.
   void step() { handle(false); }
 
@@ -111,18 +125,24 @@ class Feature_refiner_3 {
 
   /// Splits a subsegment.
   Split_outcome split_subsegment(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
-    const auto& s = complex_.subsegment(slot);
-    const Vec_3 a = position(s.vertices[0]), b = position(s.vertices[1]);
+    auto& s = complex_.subsegment(slot);
+    const double radius = complex_.subsegment_radius(slot);
     const Vec_3 m = split_points_.of_subsegment(slot);
-    const auto is_to_be_alone = [&](std::uint32_t t) { return needs_to_be_alone(complex_.subfacet(t).facet, m, 0.5 * length(b - a)); };
+    const auto is_to_be_alone = [&](std::uint32_t t) { return needs_to_be_alone(complex_.subfacet(t).facet, m, radius); };
     if (!region_.contains(m) || !territory().owns(s.vertices) || std::ranges::any_of(s.subfacets, is_to_be_alone))
       return point_elsewhere(m, complex_.subsegment_id(slot), true);
     if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
     if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
+    const bool is_plain = reason == Split_reason::encroached && guard.count == 0;
+    if ((is_plain && guard.floor >= s.refused_floor) || spacing_.is_too_close(m, s.vertices, reason, guard, radius))
+      return Split_outcome::refused;
     const Point p(m.x, m.y, m.z);
     if (const auto r = search_.from_subsegment(p, s); r != Search_result::found)
       return blocked(r == Search_result::foreign, m, complex_.subsegment_id(slot), true);
-    if (spacing_.is_too_close(cavity_, m, {1, s.segment}, s.vertices, reason, guard, 0.5 * length(b - a))) return abandon();
+    if (spacing_.is_too_close(cavity_, m, {1, s.segment}, s.vertices, reason, guard, radius)) {
+      if (is_plain && guard.reach == 0) s.refused_floor = std::min(s.refused_floor, guard.floor);
+      return abandon();
+    }
 
     features_.gather(complex_, cavity_);
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {1, s.segment}, slot))
@@ -161,11 +181,18 @@ class Feature_refiner_3 {
     // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
     const bool yields = reason != Split_reason::flat;
     const auto give_way = [&](std::uint32_t s) {
+      last_way_ = complex_.subsegment_id(s);
       return yields ? split_subsegment(s, reason_for_redirect(reason), guard) : Split_outcome::refused;
     };
     if (at.subsegment != Complex::none) return give_way(at.subsegment);
     if (const Vec_3 q = complex_.on_sheet(at.subfacet, m); region_.contains(q)) m = q;
+    const double radius = complex_.subfacet_radius(slot);
+    if (guard.count == 0 && spacing_.is_too_close(m, t.vertices, reason, guard, radius)) return Split_outcome::refused;
     const Point p(m.x, m.y, m.z);
+    // One long subsegment may be in the way of thousands of thin subfacets whose points have large cavities.
+    if (yields && last_way_.slot != Complex::none && complex_.is_live_subsegment(last_way_) &&
+        is_encroached(complex_.subsegment(last_way_.slot), p))
+      return give_way(last_way_.slot);
     if (const auto r = search_.from_subfacet(p, at.subfacet, slot); r != Search_result::found)
       return blocked(r == Search_result::foreign, m, complex_.subfacet_id(slot), false);
     features_.gather(complex_, cavity_);
@@ -174,7 +201,6 @@ class Feature_refiner_3 {
         cavity_.abandon();
         return give_way(f.slot);
       }
-    const double radius = triangle_circumradius(position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2]));
     if (spacing_.is_too_close(cavity_, m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
       return abandon();
@@ -455,8 +481,9 @@ class Feature_refiner_3 {
 
     for (const std::uint32_t h : halves)
       if (h != Complex::none && !mark_subsegment(complex_, h, cavity_)) note_missing_subsegment(h);
+    mark_subfacets(complex_, v, made_, cavity_);
     for (const std::uint32_t t : made_)
-      if (!mark_subfacet(complex_, t, cavity_)) note_missing_subfacet(t);
+      if (!complex_.subfacet(t).present) note_missing_subfacet(t);
 
     for_each_encroached(
         tr_, complex_, cavity_, v, halves, made_,
@@ -488,6 +515,7 @@ class Feature_refiner_3 {
   Split_elsewhere elsewhere_;
   std::vector<Cell_id> fresh_cells_;
   std::vector<Cell_id> unlabelled_cells_;
+  Piece_id last_way_;  ///< the subsegment that was split, or refused, in the place of a subfacet, within the same task
   std::size_t inserted_ = 0;
   bool keep_fresh_ = false;
   bool torn_ = false;

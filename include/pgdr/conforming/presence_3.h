@@ -2,8 +2,12 @@
 #ifndef PGDR_CONFORMING_PRESENCE_3_H
 #define PGDR_CONFORMING_PRESENCE_3_H
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
@@ -30,12 +34,11 @@ void mark_facet(typename Tr::Cell_handle c, int i, std::uint32_t slot) {
 
 /// Marks an edge on every cell around it; false if the triangulation lacks the edge.
 template <class Tr>
-bool mark_subsegment(const Tr& tr, Constraint_complex_3<Tr>& complex, std::uint32_t slot) {
+bool mark_subsegment(const Tr& tr, Constraint_complex_3<Tr>& complex, Vertex_star_3<Tr>& star, std::uint32_t slot) {
   auto& s = complex.subsegment(slot);
-  typename Tr::Cell_handle c;
-  int i, j;
-  if (!tr.is_edge(s.vertices[0], s.vertices[1], c, i, j)) return false;
-  auto around = tr.incident_cells(c, i, j), done = around;
+  const auto c = star.find_edge(s.vertices[0], s.vertices[1]);
+  if (c == typename Tr::Cell_handle()) return false;
+  auto around = tr.incident_cells(c, c->index(s.vertices[0]), c->index(s.vertices[1])), done = around;
   do {
     const typename Tr::Cell_handle d = around;
     const std::uint8_t bit = edge_bit(d->index(s.vertices[0]), d->index(s.vertices[1]));
@@ -47,12 +50,11 @@ bool mark_subsegment(const Tr& tr, Constraint_complex_3<Tr>& complex, std::uint3
 
 /// Marks a triangle; false if the triangulation lacks it.
 template <class Tr>
-bool mark_subfacet(const Tr& tr, Constraint_complex_3<Tr>& complex, std::uint32_t slot) {
+bool mark_subfacet(Constraint_complex_3<Tr>& complex, Vertex_star_3<Tr>& star, std::uint32_t slot) {
   auto& t = complex.subfacet(slot);
-  typename Tr::Cell_handle c;
-  int i, j, k;
-  if (!tr.is_facet(t.vertices[0], t.vertices[1], t.vertices[2], c, i, j, k)) return false;
-  mark_facet<Tr>(c, 6 - i - j - k, slot);
+  const auto c = star.find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
+  if (c == typename Tr::Cell_handle()) return false;
+  mark_facet<Tr>(c, index_of_fourth<Tr>(c, t.vertices), slot);
   t.present = true;
   return true;
 }
@@ -70,19 +72,39 @@ bool mark_subsegment(Constraint_complex_3<Tr>& complex, std::uint32_t slot, cons
   return s.present;
 }
 
-/// Marks a subfacet at the vertex just inserted.
+/// Marks the subfacets at v, the vertex just inserted, that the star shows. In one pass: a vertex where the mesh is
+/// not graded yet can have thousands of both.
 template <class Tr>
-bool mark_subfacet(Constraint_complex_3<Tr>& complex, std::uint32_t slot, const Cavity_3<Tr>& cavity) {
-  auto& t = complex.subfacet(slot);
-  for (const auto c : cavity.star()) {
-    int i, j, k;
-    if (!c->has_vertex(t.vertices[0], i) || !c->has_vertex(t.vertices[1], j) || !c->has_vertex(t.vertices[2], k))
-      continue;
-    mark_facet<Tr>(c, 6 - i - j - k, slot);
-    t.present = true;
-    break;
+void mark_subfacets(Constraint_complex_3<Tr>& complex, typename Tr::Vertex_handle v, const std::vector<std::uint32_t>& slots,
+                    const Cavity_3<Tr>& cavity) {
+  // By the edge opposite to v; the order, which depends on addresses, only serves to find them.
+  using Edge = std::array<const void*, 2>;
+  const auto edge_of = [](typename Tr::Vertex_handle a, typename Tr::Vertex_handle b) {
+    const void *p = &*a, *q = &*b;
+    return std::less<>()(p, q) ? Edge{p, q} : Edge{q, p};
+  };
+  std::vector<std::pair<Edge, std::uint32_t>> sought;
+  sought.reserve(slots.size());
+  for (const std::uint32_t slot : slots) {
+    const auto& t = complex.subfacet(slot).vertices;
+    const auto i = static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
+    sought.emplace_back(edge_of(t[(i + 1) % 3], t[(i + 2) % 3]), slot);
   }
-  return t.present;
+  std::sort(sought.begin(), sought.end());
+  const auto& star = cavity.star();
+  for (std::size_t k = 0; k < star.size(); ++k) {
+    const int apex = cavity.apex(k);
+    for (int i = 0; i < 4; ++i) {
+      if (i == apex) continue;
+      const int a = Tr::vertex_triple_index(i, 0), b = Tr::vertex_triple_index(i, 1), c = Tr::vertex_triple_index(i, 2);
+      const int p = a == apex ? b : a, q = c == apex ? b : c;
+      const Edge edge = edge_of(star[k]->vertex(p), star[k]->vertex(q));
+      const auto at = std::lower_bound(sought.begin(), sought.end(), std::make_pair(edge, std::uint32_t{0}));
+      if (at == sought.end() || at->first != edge || complex.subfacet(at->second).present) continue;
+      mark_facet<Tr>(star[k], i, at->second);
+      complex.subfacet(at->second).present = true;
+    }
+  }
 }
 
 /// Takes the marks off removed subfacets that the insertion left in the triangulation (rounding only).

@@ -47,15 +47,32 @@ class Split_spacing_3 {
                     const Split_guard& guard, double radius) const {
     const double d2 = cavity.squared_insertion_radius(m);
     if (d2 < squared_min_edge_) return true;
-    const double floor = is_apart(vertices, guard) ? guard.floor_apart : guard.floor;
-    const double floor2 = floor * floor * (1 - 1e-9);
+    const double floor2 = squared_floor(vertices, guard);
     if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return false;
+    return is_near_angle(m, guard, radius);
+  }
+
+  /// Whether that is certain from the vertices of the piece alone, which count always: where the mesh is not graded, the cavity of a
+  /// point has tens of thousands of tetrahedra, and as many vertices ask for the same split.
+  bool is_too_close(const Vec_3& m, const auto& vertices, Split_reason reason, const Split_guard& guard, double radius) const {
+    if (reason == Split_reason::missing) return false;
+    const double floor2 = squared_floor(vertices, guard);
+    return std::ranges::any_of(vertices, [&](const auto& v) { return pgdr::squared_distance(m, position(v)) < floor2; }) &&
+           is_near_angle(m, guard, radius);
+  }
+
+ private:
+  double squared_floor(const auto& vertices, const Split_guard& guard) const {
+    const double floor = is_apart(vertices, guard) ? guard.floor_apart : guard.floor;
+    return floor * floor * (1 - 1e-9);
+  }
+
+  bool is_near_angle(const Vec_3& m, const Split_guard& guard, double radius) const {
     if (guard.count == 0) return acute_.contains(m, std::max(guard.reach, 4 * radius));
     return std::any_of(guard.where.begin(), guard.where.begin() + static_cast<std::ptrdiff_t>(guard.count),
                        [&](const Vec_3& p) { return acute_.contains(p, guard.reach); });
   }
 
- private:
   /// Whether a piece has none of the vertices in which the features of the guard's edge meet.
   bool is_apart(const auto& vertices, const Split_guard& guard) const {
     return guard.floor_apart > 0 && std::ranges::none_of(vertices, [&](typename Tr::Vertex_handle v) {

@@ -51,7 +51,7 @@ class Leaf_worklist_3 {
   }
   bool empty() const { return !has_work() && deferred_.empty(); }
   std::size_t active() const {
-    return active_.size() + active_outside_.size() + retries_.size() + errands_.size() + queues_.size();
+    return steep_.size() + active_.size() + active_outside_.size() + retries_.size() + errands_.size() + queues_.size();
   }
   std::size_t deferred() const { return deferred_.size(); }
   std::size_t size() const { return active() + deferred(); }
@@ -94,8 +94,10 @@ class Leaf_worklist_3 {
   Vertex_handle anchor() const { return anchor_; }
   void set_anchor(Vertex_handle v) { anchor_ = v; }
 
-  void add_poor(const Cell_id& id, double target) {
-    if (static_cast<double>(id.radius) > target)
+  void add_poor(const Cell_id& id, double target, bool is_steep = false) {
+    if (is_steep)
+      steep_.push_back({id, ++steep_count_}), std::push_heap(steep_.begin(), steep_.end());
+    else if (static_cast<double>(id.radius) > target)
       active_.push(id);
     else
       deferred_.push_back(id);
@@ -146,6 +148,8 @@ class Leaf_worklist_3 {
       to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
       from = {};
     };
+    for (const Steep& s : part.steep_) add_poor(s.id, 0, true);
+    part.steep_.clear();
     active_.take_all(part.active_);
     active_outside_.take_all(part.active_outside_);
     append(deferred_, part.deferred_);
@@ -174,11 +178,24 @@ class Leaf_worklist_3 {
 
   /// What to look at next: first what is inside the domain. \pre one of them is active
   Cell_id pop_active() {
+    if (has_steep()) {
+      std::pop_heap(steep_.begin(), steep_.end());
+      const Cell_id id = steep_.back().id;
+      steep_.pop_back();
+      return id;
+    }
     Fifo<Cell_id>& queue = active_.empty() ? active_outside_ : active_;
     prefetch(queue);
     return queue.pop();
   }
-  bool has_active() const { return !active_.empty() || !active_outside_.empty(); }
+  bool has_active() const { return has_steep() || !active_.empty() || !active_outside_.empty(); }
+  /// The largest of the steep ones, if its radius is above this; else none.
+  Cell_id pop_steep(double above) {
+    while (has_steep() && (static_cast<double>(steep_.front().id.radius) > above || !steep_.front().id.is_live()))
+      if (const Cell_id id = pop_active(); id.is_live()) return id;
+    return {};
+  }
+  bool has_steep() const { return !steep_.empty(); }
 
  private:
   template <class, class, class>
@@ -199,6 +216,15 @@ class Leaf_worklist_3 {
     }
   }
 
+  /// The largest first, then the oldest.
+  struct Steep {
+    Cell_id id;
+    std::size_t number;
+    bool operator<(const Steep& o) const { return id.radius != o.id.radius ? id.radius < o.id.radius : number > o.number; }
+  };
+
+  std::vector<Steep> steep_;  ///< a heap of those that are far larger than their shortest edge
+  std::size_t steep_count_ = 0;
   Fifo<Cell_id> active_;
   Fifo<Cell_id> active_outside_;  ///< when nothing else is left: these yield to every feature
   std::vector<Cell_id> deferred_;
