@@ -146,5 +146,6 @@ def main():
         print(f"Median ratio of tetrahedra to TetGen's over {len(ratios)} models: {median(ratios):.2f}")
     return 1 if failed else 0
 
+
 if __name__ == "__main__":
     sys.exit(main())

@@ -11,18 +11,20 @@ using namespace pgdr_test;
 
 namespace {
 
-// The rows of the table, each run so many times; those of real models are skipped where the model is absent.
+// The rows of the table; those of real models are skipped where the model is absent.
 
-void body(int repetitions) {
-  require_same_mesh(pgdr::read_plc(data_file("winged_body_in_box.poly")), around_the_body(), repetitions);
+int repetitions() { return is_nightly() ? 5 : 1; }
+
+void body() {
+  require_same_mesh(pgdr::read_plc(data_file("winged_body_in_box.poly")), around_the_body(), repetitions());
 }
 
-void model(const char* name, double radius, int repetitions, const pgdr::Parameters& parameters = {}, std::size_t least_tasks = 100,
+void model(const char* name, double radius, const pgdr::Parameters& parameters = {}, std::size_t least_tasks = 100,
            std::size_t least_ready = 8) {
   CAPTURE(name);
   const auto path = input_model(name);
   if (!path) PGDR_SKIP("the real models are not here");
-  require_same_mesh(pgdr::read_plc(*path), size(radius), repetitions, parameters, least_tasks, least_ready);
+  require_same_mesh(pgdr::read_plc(*path), size(radius), repetitions(), parameters, least_tasks, least_ready);
 }
 
 /// For a model of moderate size to have tasks enough.
@@ -33,34 +35,28 @@ pgdr::Parameters many_leaves() {
 }
 
 // Surfaces have so much outside that their work is divided among territories.
-void joint(int repetitions) { model("a03_joint.off", 0.02, repetitions, {}, 30, 4); }
-void knot(int repetitions) { model("a11_knot2.off", 0.007, repetitions, {}, 30, 4); }
-void airplane(int repetitions) { model("a19_airplane_in_box.poly", 0.9, repetitions, many_leaves()); }
+void joint() { model("a03_joint.off", 0.02, {}, 30, 4); }
+void knot() { model("a11_knot2.off", 0.007, {}, 30, 4); }
+void airplane() { model("a19_airplane_in_box.poly", 0.9, many_leaves()); }
 
 }  // namespace
 
 TEST_CASE("The cube is the same mesh for every number of threads, every time", "[schedule]") {
-  require_same_mesh(pgdr::read_plc(data_file("cube.poly")), size(0.023), is_nightly() ? 5 : 1);
+  require_same_mesh(pgdr::read_plc(data_file("cube.poly")), size(0.023), repetitions());
 }
 
 TEST_CASE("The winged body in its box is the same mesh for every number of threads", "[schedule]") {
-  body(1);
+  body();
 }
 
 TEST_CASE("A joint is the same mesh for every number of threads", "[schedule][models]") {
-  joint(1);
+  joint();
 }
 
 TEST_CASE("A knot is the same mesh for every number of threads", "[schedule][models]") {
-  knot(1);
+  knot();
 }
 
 TEST_CASE("An airplane in its box is the same mesh for every number of threads", "[schedule][models]") {
-  airplane(1);
+  airplane();
 }
-
-// Minutes each.
-TEST_CASE("The winged body, five times", "[.][repeated]") { body(5); }
-TEST_CASE("A joint, five times", "[.][repeated]") { joint(5); }
-TEST_CASE("A knot, five times", "[.][repeated]") { knot(5); }
-TEST_CASE("An airplane, five times", "[.][repeated]") { airplane(5); }

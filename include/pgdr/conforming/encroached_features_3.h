@@ -39,19 +39,17 @@ void for_each_encroached(const Tr& tr, const Constraint_complex_3<Tr>& complex, 
         }
   }
 
-  const auto first_across = [&](const auto& piece, const auto& is_at) {
-    for (const auto c : star)
-      for (int i = 0; i < 4; ++i) {
-        const auto w = c->vertex(i);
-        if (is_at(c, i) && !tr.is_infinite(w) && encroaches(complex, piece, w)) return w;
-      }
+  const auto first_across = [&](const typename Complex::Subsegment& s) {
+    for (const auto c : star) {
+      if (!c->has_vertex(s.vertices[0]) || !c->has_vertex(s.vertices[1])) continue;
+      for (int i = 0; i < 4; ++i)
+        if (!tr.is_infinite(c->vertex(i)) && encroaches(complex, s, c->vertex(i))) return c->vertex(i);
+    }
     return typename Tr::Vertex_handle();
   };
   for (const std::uint32_t h : halves) {
     if (h == Complex::none || !complex.subsegment(h).present) continue;
-    const auto& s = complex.subsegment(h);
-    const auto w = first_across(
-        s, [&](auto c, int) { return c->has_vertex(s.vertices[0]) && c->has_vertex(s.vertices[1]); });
+    const auto w = first_across(complex.subsegment(h));
     if (w != typename Tr::Vertex_handle()) subsegment(h, w);
   }
   // Of each new subfacet its one or two sides in the star, in one pass: there can be thousands of both.

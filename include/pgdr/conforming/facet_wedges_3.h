@@ -66,7 +66,8 @@ class Facet_wedges_3 {
   }
 
   /// Calls `found` with each image of m, a point in the plane of the facet, that is within `distance` of it. Images may be next
-  /// to the other facet instead of on it, but are in its bounding box, which says a lot of a strip. `is_usual`: only where the facets meet at less than `usual_limit`.
+  /// to the other facet instead of on it, but are in its bounding box, which says a lot of a strip. `is_usual`: only where the facets
+  /// meet at less than `usual_limit`.
   template <class Found>
   void for_each_image(Index facet, const Vec_3& m, double distance, bool is_usual, const Found& found) const {
     for (const Wedge& w : of_facet_[facet]) {

@@ -441,14 +441,16 @@ class Delaunay_leaf_refiner_3 {
   /// A steep tetrahedron that is much larger than the piece of a feature that is next, or none: so that the mesh is graded as
   /// vertices get denser along the features, and points have small cavities.
   Cell_id steep_before_feature(Worker& w, Worklist& list) {
-    constexpr std::size_t at_once = 64;
+    constexpr std::size_t at_once = 64;  // new tetrahedra to be measured
+    constexpr double much_larger = 4;  // than the ball of the piece
     Features& features = w.features_;
     if (w.task_.features_only || w.task_.territory != 0) return {};
+    const bool takes_fresh = features.fresh_cells().size() > at_once;
+    if (!takes_fresh && !list.has_steep()) return {};
     const double radius = features.next_radius();
     if (radius == std::numeric_limits<double>::infinity()) return {};
-    if (features.fresh_cells().size() > at_once) take_fresh_cells(w, list);
-    const Cell_id id = list.pop_steep(4 * radius);
-    return id;
+    if (takes_fresh) take_fresh_cells(w, list);
+    return list.pop_steep(much_larger * radius);
   }
 
   /// A tetrahedron that is looked at, and its Steiner point.
@@ -687,9 +689,10 @@ class Delaunay_leaf_refiner_3 {
         // Where p does not see it at more than a right angle it does not encroach it; but for rounding, for which the cavity
         // is looked through again in the end.
         const bool may_encroach = dot(position(c->vertex(i)) - at, position(c->vertex(j)) - at) <= 0;
-        if (!may_encroach && (!or_deletes || !deletes_edge(c, i, j, p))) continue;
+        const auto is_deleted = [&] { return or_deletes && deletes_edge(c, i, j, p); };
+        if (!may_encroach && !is_deleted()) continue;
         const std::uint32_t s = complex_.find_subsegment(c->vertex(i), c->vertex(j));
-        if (s != Complex::none && (!may_encroach || is_encroached(complex_.subsegment(s), p) || (or_deletes && deletes_edge(c, i, j, p)))) return s;
+        if (s != Complex::none && (!may_encroach || is_encroached(complex_.subsegment(s), p) || is_deleted())) return s;
       }
     return Complex::none;
   }

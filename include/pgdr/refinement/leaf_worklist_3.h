@@ -95,12 +95,14 @@ class Leaf_worklist_3 {
   void set_anchor(Vertex_handle v) { anchor_ = v; }
 
   void add_poor(const Cell_id& id, double target, bool is_steep = false) {
-    if (is_steep)
-      steep_.push_back({id, ++steep_count_}), std::push_heap(steep_.begin(), steep_.end());
-    else if (static_cast<double>(id.radius) > target)
+    if (is_steep) {
+      steep_.push_back({id, ++steep_count_});
+      std::push_heap(steep_.begin(), steep_.end());
+    } else if (static_cast<double>(id.radius) > target) {
       active_.push(id);
-    else
+    } else {
       deferred_.push_back(id);
+    }
   }
 
   /// What a child of this leaf starts from.
