@@ -104,23 +104,25 @@ class Explained_edges {
     triangles_.emplace(triangle_items_.begin(), triangle_items_.end());
   }
 
-  /// Whether p is within `reach` of what is protected around a small angle: pieces whose split point is within a thousandth of
-  /// the length of the segment that it is at, or of the shortest segment at its vertex. They reach up to three times as far.
+  /// Whether p is within `reach` of what is protected around a small angle: the ball around a vertex, a fifth of the shortest
+  /// segment there at most, which has no vertices inside, and pieces whose split point is within a thousandth of the length of the
+  /// segment that it is at, which reach up to three times as far.
   bool protects(const P& p, double reach) const {
     const Plain::Point_3 at(p[0], p[1], p[2]);
-    const double r = reach + protected_part * longest_;
+    const double r = reach + protected_at_vertex * longest_;
     std::vector<const Tagged<Plain::Segment_3>*> near;
     segments_->all_intersected_primitives(box_around(p, r), std::back_inserter(near));
     const auto is_near = [&](double degrees, double squared_distance, double length) {
-      return degrees < class_bounds_deg.back() && std::sqrt(squared_distance) <= reach + protected_part * length;
+      return degrees < class_bounds_deg.back() && std::sqrt(squared_distance) <= reach + length;
     };
     return std::ranges::any_of(near, [&](const auto* s) {
       const auto& segment = s->shape;
-      if (is_near(angles_.segment_deg[s->tag], CGAL::squared_distance(at, segment), std::sqrt(segment.squared_length())))
+      if (is_near(angles_.segment_deg[s->tag], CGAL::squared_distance(at, segment),
+                  protected_at_segment * std::sqrt(segment.squared_length())))
         return true;
       const auto& ends = domain_.segments[s->tag].vertices;
       return std::ranges::any_of(ends, [&](Index v) {
-        return is_near(angles_.vertex_deg[v], CGAL::squared_distance(at, plain(domain_, v)), shortest_at_[v]);
+        return is_near(angles_.vertex_deg[v], CGAL::squared_distance(at, plain(domain_, v)), protected_at_vertex * shortest_at_[v]);
       });
     });
   }
@@ -196,7 +198,7 @@ class Explained_edges {
 
   const Epick_domain& domain_;
   const Small_angles& angles_;
-  static constexpr double protected_part = 3 * 1e-3;
+  static constexpr double protected_at_vertex = 0.2, protected_at_segment = 3 * 1e-3;
   double tolerance_ = 0;
   double longest_ = 0;
   std::vector<double> shortest_at_;

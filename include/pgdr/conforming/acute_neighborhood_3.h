@@ -117,7 +117,7 @@ class Acute_neighborhood_3 {
   }
 
   /// Whether two features meet at a small angle so near to m that it is protected there: inside the ball of the vertex, or within
-  /// `Protected_balls_3::part` of the length of the segment, that they meet in. On the sphere is not inside: with its point there a
+  /// `protected_part` of the length of the segment, that they meet in. On the sphere is not inside: with its point there a
   /// segment stays as it is, and without, it would be in the way of all that comes near.
   bool protects(const Vec_3& m, const Feature_id& a, const Feature_id& b) const {
     return std::ranges::any_of(angles_at(a), [&](Place place) {
@@ -130,6 +130,8 @@ class Acute_neighborhood_3 {
   /// A small angle: a vertex, or a segment with `segment_bit`.
   using Place = std::uint64_t;
   static constexpr Place segment_bit = Place{1} << 32;
+  /// How far around a segment nothing is deleted for the sake of quality, of its length: far below what other features leave to it.
+  static constexpr double protected_part = 1e-3;
 
   template <class K>
   void list_small_angles(const Domain_3<K>& domain, const Small_angles& angles) {
@@ -168,7 +170,7 @@ class Acute_neighborhood_3 {
   double protected_radius(Place place) const {
     const auto i = static_cast<Index>(place & ~segment_bit);
     if (!(place & segment_bit)) return (1 - 1e-9) * balls_->radius(i);
-    return Protected_balls_3::part * length(position_[ends_[i][1]] - position_[ends_[i][0]]);
+    return protected_part * length(position_[ends_[i][1]] - position_[ends_[i][0]]);
   }
 
   double squared_distance_to(Place place, const Vec_3& p) const {

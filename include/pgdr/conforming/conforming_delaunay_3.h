@@ -30,20 +30,6 @@ void queue_if_encroached_subsegment(const Tr& tr, Feature_refiner_3<Tr>& refiner
   } while (++around != done);
 }
 
-/// Queues a present subfacet that one of its two opposite vertices encroaches.
-template <class Tr>
-void queue_if_encroached_subfacet(const Tr& tr, Feature_refiner_3<Tr>& refiner, Vertex_star_3<Tr>& star, std::uint32_t slot) {
-  const auto& t = refiner.complex().subfacet(slot);
-  const auto c = star.find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
-  if (c == typename Tr::Cell_handle()) return;
-  const int m = index_of_fourth<Tr>(c, t.vertices);
-  for (const auto v : {c->vertex(m), tr.mirror_vertex(c, m)})
-    if (!tr.is_infinite(v) && encroaches(refiner.complex(), t, v)) {
-      refiner.note_encroached_subfacet(slot, v);
-      return;
-    }
-}
-
 }  // namespace internal
 
 /// Marks the subsegments that are there and queues those that are not, or that a vertex encroaches.
@@ -60,7 +46,7 @@ void start_segment_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
 
 /// The same for subfacets, once every subsegment is there; cocircular polygons adopt what the triangulation shows.
 template <class Tr>
-void start_facet_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
+void start_facet_recovery(Feature_refiner_3<Tr>& refiner) {
   auto& complex = refiner.complex();
   Vertex_star_3<Tr> star;
   const auto slots = [&] { return static_cast<std::uint32_t>(complex.subfacet_slots()); };
@@ -71,8 +57,7 @@ void start_facet_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
     if (complex.subfacet(t).alive() && !complex.subfacet(t).present && !polygon.adopt(t))
       refiner.note_missing_subfacet(t);
   for (std::uint32_t t = 0; t < slots(); ++t)
-    if (complex.subfacet(t).alive() && complex.subfacet(t).present)
-      internal::queue_if_encroached_subfacet(tr, refiner, star, t);
+    if (complex.subfacet(t).alive() && complex.subfacet(t).present) refiner.request_if_encroached(t);
 }
 
 }  // namespace pgdr

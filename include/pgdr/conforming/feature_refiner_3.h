@@ -19,6 +19,7 @@
 #include <pgdr/conforming/facet_star_3.h>
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/presence_3.h>
+#include <pgdr/conforming/sheet_repair_3.h>
 #include <pgdr/conforming/sheet_walk_3.h>
 #include <pgdr/conforming/split_points_3.h>
 #include <pgdr/conforming/split_spacing_3.h>
@@ -76,6 +77,15 @@ class Feature_refiner_3 {
     constexpr auto reason = Split_reason::encroached;
     queues_.subfacets.push({complex_.subfacet_id(t), reason, v->insertion_radius(),
                             spacing_.reach({2, complex_.subfacet(t).facet}, split_points_.of_subfacet(t, reason), v)});
+  }
+  /// Queues a present subfacet that one of its two opposite vertices encroaches.
+  void request_if_encroached(std::uint32_t slot) {
+    const auto& t = complex_.subfacet(slot);
+    const auto c = search_.star().find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
+    if (c == Cell_handle()) return;
+    const int m = index_of_fourth<Tr>(c, t.vertices);
+    for (const Vertex_handle v : {c->vertex(m), tr_.mirror_vertex(c, m)})
+      if (!tr_.is_infinite(v) && encroaches(complex_, t, v)) return note_encroached_subfacet(slot, v);
   }
   void request(bool is_subsegment, const Feature_request& r) {
     (is_subsegment ? queues_.subsegments : queues_.subfacets).push(r);
@@ -176,7 +186,16 @@ class Feature_refiner_3 {
     if (!region_.contains(m) || needs_to_be_alone(t.facet, m, length(m - position(t.vertices[0]))))
       return point_elsewhere(m, complex_.subfacet_id(slot), false);
     if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
-    const Sheet_place at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
+    if (reason == Split_reason::missing && flip_missing(slot)) return Split_outcome::inserted;
+    Sheet_place at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
+    const auto is_beside = [&] {
+      return at.subsegment != Complex::none && !is_in_the_way(complex_.subsegment(at.subsegment), t, Point(m.x, m.y, m.z));
+    };
+    if (is_beside()) {
+      m = complex_.plane(t.facet).project(point_before(complex_.subsegment(at.subsegment), t, m));
+      at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
+      if (is_beside()) return Split_outcome::refused;
+    }
     if (at.is_foreign) return point_elsewhere(m, complex_.subfacet_id(slot), false);
     // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
     const bool yields = reason != Split_reason::flat;
@@ -335,6 +354,23 @@ class Feature_refiner_3 {
   /// meet at a small angle and get points at unlike places give each other ever more of them.
   bool needs_to_be_alone(Index facet, const Vec_3& m, double radius) const {
     return !territory().is_everything() && images_.has_images(facet, m, radius);
+  }
+
+  /// Flips an edge of a missing subfacet where the sheet is not Delaunay, if there is one.
+  bool flip_missing(std::uint32_t slot) {
+    // Once there are subdomains a piece that is there must not move: it separates them.
+    const std::uint32_t n = neighbor_to_flip(complex_, slot, territory(), !keep_fresh_);
+    if (n == Complex::none) return false;
+    unmark_survivors(complex_, search_.star(), {n});
+    complex_.flip(slot, n);
+    for (const std::uint32_t t : {slot, n}) {
+      complex_.subfacet(t).present = false;
+      if (mark_subfacet(complex_, search_.star(), t))
+        request_if_encroached(t);
+      else
+        note_missing_subfacet(t);
+    }
+    return true;
   }
 
   bool is_near(const auto& vertices) const {

@@ -499,7 +499,6 @@ class Delaunay_leaf_refiner_3 {
     if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
     if (t.is_outside()) return refine_outside(w, t, list, result);
     if (w.task_.territory != 0 && is_steep(t.ball)) return hand_on(t, list);
-    if (acute_.balls().protects(t.at, t.ball.squared_radius)) return give_up(t, list, result);
     const bool is_too_large = criteria_.is_over_size(t.ball, t.id.cell->subdomain());
     if (!is_too_large && is_hopeless(t.id.cell, t.ball, t.corners, criteria_.radius_edge_ratio(), acute_.narrow()))
       return give_up(t, list, result);
