@@ -104,7 +104,7 @@ class Explained_edges {
     triangles_.emplace(triangle_items_.begin(), triangle_items_.end());
   }
 
-  /// Whether p is within `reach` of what is protected around a small angle: the ball around a vertex, a fifth of the shortest
+  /// Whether p is within `reach` of what is protected around a small angle: the ball around a vertex, a quarter of the shortest
   /// segment there at most, which has no vertices inside, and pieces whose split point is within a thousandth of the length of the
   /// segment that it is at, which reach up to three times as far.
   bool protects(const P& p, double reach) const {
@@ -198,7 +198,7 @@ class Explained_edges {
 
   const Epick_domain& domain_;
   const Small_angles& angles_;
-  static constexpr double protected_at_vertex = 0.2, protected_at_segment = 3 * 1e-3;
+  static constexpr double protected_at_vertex = 0.25, protected_at_segment = 3 * 1e-3;
   double tolerance_ = 0;
   double longest_ = 0;
   std::vector<double> shortest_at_;

@@ -37,12 +37,12 @@ bool is_power_of_two(double x) {
 
 }  // namespace
 
-TEST_CASE("Protected balls are small, keep clear of other features, and have powers of two for radii", "[conforming]") {
+TEST_CASE("Protected balls leave half of each segment, keep clear of other features, and have powers of two for radii", "[conforming]") {
   for (const double distance : {1.0, 1e-2, 1e-4, 1e-5}) {
     CAPTURE(distance);
     const auto domain = pgdr::make_domain_3(two_triangles(distance));
     const Protected_balls_3 balls(domain, {true, false, false, false, false, false});
-    const double largest = std::min(1e-3, distance / 2);
+    const double largest = std::min(0.25, distance / 2);
     CHECK(balls.radius(0) <= largest);
     CHECK(balls.radius(0) > largest / 2);
     CHECK(is_power_of_two(balls.radius(0)));
@@ -61,19 +61,19 @@ TEST_CASE("Protected balls are small, keep clear of other features, and have pow
       CHECK(balls.contains_segment(0, p));
     }
     CHECK_FALSE(balls.contains_segment(0, {0, 1.001 * r, 0}));
-    CHECK(balls.protects({0.5 * r, 0, 0}, 0.25 * r * r));
-    CHECK_FALSE(balls.protects({0.5 * r, 0, 0}, 4 * r * r));
+    CHECK(balls.find({0.5 * r, 0, 0}, 0.25 * r * r) == 0);
+    CHECK(balls.find({0.5 * r, 0, 0}, 4 * r * r) == Protected_balls_3::none);
   }
 }
 
-TEST_CASE("Nothing is inserted in a protected ball", "[conforming]") {
+TEST_CASE("Features get no points in a protected ball", "[conforming]") {
   // Facets that are seven degrees apart: without the balls, their points came ever closer to the ends of the common edge.
   const Mesh mesh = refined(pgdr::read_plc(data_file("../test/corpus/fan_134.poly")), std::numeric_limits<double>::infinity());
   const pgdr::Acute_neighborhood_3 acute(mesh.domain());
   CHECK(mesh.statistics().unrecovered == 0);
   std::size_t on_sphere = 0;
   for (const auto v : mesh.triangulation().finite_vertex_handles()) {
-    if (v->in_dimension() == 0) continue;
+    if (v->in_dimension() != 1 && v->in_dimension() != 2) continue;
     const Vec_3 p = pgdr::position(v);
     CHECK(acute.balls().find(p) == Protected_balls_3::none);
     for (pgdr::Index c = 0; c < mesh.domain().vertices.size(); ++c) {

@@ -108,11 +108,14 @@ class Constraint_complex_3 {
   const Domain& domain() const { return *domain_; }
   const Facet_plane_3& plane(Index facet) const { return planes_[facet]; }
 
+  /// Whether vertices of a facet are off its plane, since it was fused of near-coplanar ones.
+  bool is_bent(Index facet) const { return is_bent_[facet]; }
+
   /// Where a point of a facet's plane that is in a subfacet goes: onto the subfacet, where the vertices of a fused facet are off its plane. If
   /// all points were in the plane there would be a step along its segments, as high as these are off.
   Vec_3 on_sheet(std::uint32_t i, const Vec_3& m) const {
     const Subfacet& t = subfacets_[i];
-    return is_bent_[t.facet] ? planes_[t.facet].lift(m, position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2])) : m;
+    return is_bent(t.facet) ? planes_[t.facet].lift(m, position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2])) : m;
   }
 
   Subsegment& subsegment(std::uint32_t i) { return subsegments_[i]; }

@@ -22,7 +22,7 @@
 
 namespace pgdr {
 
-/// Balls around the vertices of a domain where features meet at small angles. Nothing is inserted inside, so that features
+/// Balls around the vertices of a domain where features meet at small angles. Features get no points inside, so that they
 /// cannot drive each other's points ever closer to a vertex: every segment that ends in it gets a point on the sphere,
 /// every facet has triangles from the vertex to an arc of the sphere, and what is missing of these is split on the arc. (The
 /// collars of A. Rand and N. Walkington, *Collars and intestines: practical conforming Delaunay refinement*, IMR 2009, for the
@@ -35,10 +35,10 @@ class Protected_balls_3 {
       CGAL::Search_traits_adapter<Ball, CGAL::First_of_pair_property_map<Ball>, CGAL::Search_traits_3<Kernel>>>;
 
  public:
-  /// Of the shortest segment at a vertex, the radius of its ball. With smaller balls features are driven down to them first, and what
-  /// angles of a fraction of a degree leave between features on the sphere gets below the minimum edge length: of the six sets of
-  /// intersecting cones in docs/robustness.md none ends with 0.01, three with 0.05, all with 0.2.
-  static constexpr double part = 0.2;
+  /// Of the shortest segment at a vertex, the radius of its ball: half of a segment is left between two. With smaller balls features are
+  /// driven down to them first, and what angles of a fraction of a degree leave between features on the sphere gets below the
+  /// minimum edge length: of six sets of intersecting cones none ends with 0.001, five with 0.1, all with 0.2 and 0.25.
+  static constexpr double part = 0.25;
 
   /// `is_center[v]`: whether vertex v has a ball. Radii are powers of two, like those of the shells, at most half as large as
   /// the distance to any feature that does not contain the vertex.
@@ -80,7 +80,6 @@ class Protected_balls_3 {
   Index find(const Vec_3& p, double squared_radius) const {
     return squared_radius < largest_ * largest_ ? find(p) : none;
   }
-  bool protects(const Vec_3& p, double squared_radius) const { return find(p, squared_radius) != none; }
 
   /// The point of the sphere around v in the direction of p. \pre p is not v
   Vec_3 on_sphere(Index v, const Vec_3& p) const {

@@ -16,8 +16,8 @@
 namespace pgdr {
 
 // What goes on where the circumcircle of a subfacet holds vertices of its own facet. In a plane the circle of what a Delaunay triangulation
-// shows is empty. In a bent facet, one that was fused of near-coplanar ones, vertices may be off its plane, and then out of the ball;
-// and a sheet that is not there yet need not be Delaunay at all.
+// shows is empty. In a bent facet, one that was fused of near-coplanar ones, vertices are off the plane, and may be out of the ball though
+// they are in the circle; what was made around them then is not Delaunay in the plane.
 
 /// Whether a subsegment between a subfacet and its circumcenter is encroached by either, so that to split it helps. It always is if the circle
 /// is empty (see `walk_in_sheet`); else the pieces at the crossing would be halved for ever.
@@ -40,7 +40,7 @@ Vec_3 point_before(const Subsegment& s, const Subfacet& t, const Vec_3& center) 
   return before + beyond > 0 ? middle + (0.5 * before / (before + beyond)) * (center - middle) : middle;
 }
 
-/// A neighbor of a missing subfacet with which it is not locally Delaunay, as seen along the normal of their facet, so that their edge is to be
+/// A neighbor of a missing subfacet of a bent facet with which it is not locally Delaunay, as seen along the normal of their facet, so that their edge is to be
 /// flipped: a point at its circumcenter could be where that neighbor's side of the sheet has vertices already. None if there is none,
 /// or it is not own; one that is there itself only if `any`. Each flip is one of Lawson's, which in a plane come to an end.
 template <class Tr>
@@ -50,7 +50,7 @@ std::uint32_t neighbor_to_flip(const Constraint_complex_3<Tr>& complex, std::uin
   constexpr double rounding = 1e-9;  // radians: cocircular vertices are left as they are
   const auto& t = complex.subfacet(slot);
   const auto& plane = complex.plane(t.facet);
-  if (!territory.owns(t.vertices)) return Complex::none;
+  if (!complex.is_bent(t.facet) || !territory.owns(t.vertices)) return Complex::none;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t n = t.neighbors[i];
     if ((n & Complex::subsegment_bit) || !territory.owns(complex.subfacet(n).vertices)) continue;

@@ -78,7 +78,7 @@ double inherited_radius(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
 template <class Cell_handle>
 Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners, bool is_over_ratio,
                         const Acute_neighborhood_3& acute) {
-  constexpr double most_points = 8;
+  constexpr double most_points = 10;  // table in docs/robustness.md
   Split_guard guard{.floor = 0.5 * std::sqrt(ball.squared_shortest), .where = corners, .count = 4,
                     .reach = 4 * std::sqrt(ball.squared_radius)};
   for_each_narrow_edge(c, ball, corners, [&](std::size_t i, std::size_t j, double radius) {
