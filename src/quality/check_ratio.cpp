@@ -92,9 +92,12 @@ class Explained_edges {
       segment_items_.push_back(
           {Plain::Segment_3(plain(domain, ends[0]), plain(domain, ends[1])), std::uint32_t(s)});
       const double length = std::sqrt(segment_items_.back().shape.squared_length());
-      longest_ = std::max(longest_, length);
+      farthest_protected_ = std::max(farthest_protected_, protected_at_segment * length);
       for (const Index v : ends) shortest_at_[v] = std::min(shortest_at_[v], length);
     }
+    for (std::size_t v = 0; v < shortest_at_.size(); ++v)
+      if (angles.vertex_deg[v] < class_bounds_deg.back() && std::isfinite(shortest_at_[v]))
+        farthest_protected_ = std::max(farthest_protected_, protected_at_vertex * shortest_at_[v]);
     for (std::size_t f = 0; f < domain.facets.size(); ++f)
       for (const auto& t : domain.facets[f].triangles)
         triangle_items_.push_back(
@@ -109,7 +112,7 @@ class Explained_edges {
   /// segment that it is at, which reach up to three times as far.
   bool protects(const P& p, double reach) const {
     const Plain::Point_3 at(p[0], p[1], p[2]);
-    const double r = reach + protected_at_vertex * longest_;
+    const double r = reach + farthest_protected_;
     std::vector<const Tagged<Plain::Segment_3>*> near;
     segments_->all_intersected_primitives(box_around(p, r), std::back_inserter(near));
     const auto is_near = [&](double degrees, double squared_distance, double length) {
@@ -200,7 +203,7 @@ class Explained_edges {
   const Small_angles& angles_;
   static constexpr double protected_at_vertex = 0.25, protected_at_segment = 3 * 1e-3;
   double tolerance_ = 0;
-  double longest_ = 0;
+  double farthest_protected_ = 0;  ///< from any small angle
   std::vector<double> shortest_at_;
   std::vector<Tagged<Plain::Segment_3>> segment_items_;
   std::vector<Tagged<Plain::Triangle_3>> triangle_items_;

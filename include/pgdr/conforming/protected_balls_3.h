@@ -37,7 +37,7 @@ class Protected_balls_3 {
  public:
   /// Of the shortest segment at a vertex, the radius of its ball: half of a segment is left between two. With smaller balls features are
   /// driven down to them first, and what angles of a fraction of a degree leave between features on the sphere gets below the
-  /// minimum edge length: of six sets of intersecting cones none ends with 0.001, five with 0.1, all with 0.2 and 0.25.
+  /// minimum edge length: of six sets of intersecting cones none ends with 0.001, four with 0.05, all with 0.2 and 0.25.
   static constexpr double part = 0.25;
 
   /// `is_center[v]`: whether vertex v has a ball. Radii are powers of two, like those of the shells, at most half as large as

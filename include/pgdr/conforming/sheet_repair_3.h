@@ -40,9 +40,10 @@ Vec_3 point_before(const Subsegment& s, const Subfacet& t, const Vec_3& center) 
   return before + beyond > 0 ? middle + (0.5 * before / (before + beyond)) * (center - middle) : middle;
 }
 
-/// A neighbor of a missing subfacet of a bent facet with which it is not locally Delaunay, as seen along the normal of their facet, so that their edge is to be
-/// flipped: a point at its circumcenter could be where that neighbor's side of the sheet has vertices already. None if there is none,
-/// or it is not own; one that is there itself only if `any`. Each flip is one of Lawson's, which in a plane come to an end.
+/// A neighbor of a missing subfacet of a bent facet with which it is not locally Delaunay, as seen along the normal of their facet,
+/// so that their edge is to be flipped: a point at its circumcenter could be where that neighbor's side of the sheet has vertices
+/// already. None if there is none, or it is not own; one that is there itself only if `any`. Each flip is one of Lawson's, which
+/// in a plane come to an end.
 template <class Tr>
 std::uint32_t neighbor_to_flip(const Constraint_complex_3<Tr>& complex, std::uint32_t slot, const Territory_3<Tr>& territory,
                                bool any) {

@@ -54,7 +54,8 @@ struct Check_options {
 ///
 /// - `ratio`: no tetrahedron is over the bound, except near small angles of the domain: within four
 ///   circumradii (from its nearest vertex or its centroid) of a vertex or segment where features meet at
-///   less than 60 degrees, or where its shortest edge joins two features that meet there, as close to each
+///   less than 60 degrees, or of the ball around such a vertex that is kept clear (a quarter of the shortest
+///   segment there), or where its shortest edge joins two features that meet there, as close to each
 ///   other as the angle makes them: a needle is a small angle from end to end.
 ///
 /// Never throws for a bad mesh. `domain`: null, or the input that the mesh was made from.
