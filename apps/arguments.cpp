@@ -67,6 +67,14 @@ double parse_tolerance(const std::string& option, const std::string& text) {
   return value;
 }
 
+Length parse_length(const std::string& option, const std::string& text) {
+  const bool is_relative = text.ends_with('d') || text.ends_with('D');
+  const double value = parse_number(option, is_relative ? text.substr(0, text.size() - 1) : text);
+  if (!(value >= 0 && value < std::numeric_limits<double>::infinity()))
+    throw Usage_error(option + " must be a length like 0.1, or a part of the bounding box's diagonal like 1e-4d, not " + text);
+  return {value, is_relative};
+}
+
 double parse_ratio_bound(const std::string& option, const std::string& text) {
   const double value = parse_positive(option, text);
   if (value < 2)

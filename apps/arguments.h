@@ -30,6 +30,16 @@ double parse_positive(const std::string& option, const std::string& text);
 /// A relative tolerance: `parse_number`, from 0 to less than 1.
 double parse_tolerance(const std::string& option, const std::string& text);
 
+/// A length in the units of the input, or a part of its bounding box's diagonal.
+struct Length {
+  double value = 0;
+  bool is_relative = false;
+  double in_units(double diagonal) const { return is_relative ? value * diagonal : value; }
+};
+
+/// "0.1", in the units of the input, or "1e-4d", times the diagonal; at least 0 and finite.
+Length parse_length(const std::string& option, const std::string& text);
+
 /// A bound that the mesher is asked for: `parse_number`, at least 2 and finite.
 double parse_ratio_bound(const std::string& option, const std::string& text);
 

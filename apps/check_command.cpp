@@ -37,7 +37,7 @@ int run_check(const Check_arguments& arguments) {
 
   std::optional<Domain> domain;
   if (!arguments.plc.empty()) {
-    domain = understand(read_input(arguments.plc, arguments.domain), arguments.domain);
+    domain = understand(read_input(arguments.plc, arguments.domain).plc, arguments.domain);
     print_or_throw(find_problems(*domain));
   }
   const std::vector<Check_line> lines =

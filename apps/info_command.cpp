@@ -13,6 +13,7 @@
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/write_poly.h>
 #include <pgdr/report/format.h>
+#include <pgdr/report/run_summary.h>
 
 #include "arguments.h"
 #include "command.h"
@@ -99,8 +100,9 @@ void check_outputs(const Info_arguments& arguments) {
 
 int run_info(const Info_arguments& arguments) {
   check_outputs(arguments);
-  const Plc plc = read_input(arguments.input, arguments.domain);
-  with_problem_file(arguments.problems, plc, [&] {
+  const auto [plc, simplification] = read_input(arguments.input, arguments.domain);
+  if (!simplification.is_none()) print_line("simplified", simplification_text(simplification) + "; --tolerance 0 keeps them");
+  with_problem_file(arguments.problems, plc, [&, &plc = plc] {
     const Domain domain = understand(plc, arguments.domain);
     const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(arguments.problems));
     print_summary(summary);

@@ -127,7 +127,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
   if (!arguments.radius_edge_ratio.empty())
     p.radius_edge_ratio = parse_ratio_bound("--radius-edge-ratio", arguments.radius_edge_ratio);
   if (!arguments.placement.empty()) p.placement = parse_placement(arguments.placement);
-  p.coplanar_tolerance = arguments.domain.tolerance();
+  p.coplanar_tolerance = arguments.domain.fusing_tolerance();
   p.triangulate_facets = arguments.domain.triangulate;
   p.ignore_region_sizes = arguments.ignore_region_sizes;
   if (!arguments.min_edge_length.empty())
@@ -162,8 +162,11 @@ int run_mesh(const Mesh_arguments& arguments) {
   Progress_line progress(!arguments.quiet);
   progress.show("reading " + arguments.input);
   std::optional<Domain> domain;
+  Run_summary run;
   {
-    const Plc plc = read_input(arguments.input, arguments.domain);
+    const Input input = read_input(arguments.input, arguments.domain);
+    const Plc& plc = input.plc;
+    run.simplification = input.simplification;
     timer.end_phase("reading");
     progress.show("checking the input");
     with_problem_file(arguments.problems, plc, [&] {
@@ -175,7 +178,6 @@ int run_mesh(const Mesh_arguments& arguments) {
   }
   timer.end_phase("validation");
 
-  Run_summary run;
   run.threads = thread_count();
   Indexed_mesh_3 mesh;
   const Interrupt_guard interrupt;

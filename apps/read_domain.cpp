@@ -15,6 +15,12 @@ namespace pgdr::app {
 
 void Domain_options::add_to(CLI::App& parser) {
   parser
+      .add_option("--tolerance", tolerance,
+                  "Take away edges, needles and caps smaller than this, changing the boundary by no more: a length, or a part of the "
+                  "bounding box's diagonal as in 1e-4d; 0: mesh exactly what is in the file (default: 1e-6d for surfaces, 0 for .poly "
+                  "and .smesh)")
+      ->type_name("T");
+  parser
       .add_option(
           "--coplanar-tolerance", coplanar_tolerance,
           "Fuse facets whose vertices are this close to one plane, relative to the bounding box's diagonal "
@@ -41,18 +47,38 @@ void Domain_options::add_to(CLI::App& parser) {
 }
 
 void Domain_options::check() const {
-  tolerance();
+  fusing_tolerance();
+  if (!tolerance.empty()) parse_length("--tolerance", tolerance);
   for (const std::string& text : holes) parse_point("--hole", text);
   for (const std::string& text : regions) parse_region(text);
 }
 
-double Domain_options::tolerance() const {
+double Domain_options::fusing_tolerance() const {
   if (coplanar_tolerance.empty()) return Parameters().coplanar_tolerance;
   return parse_tolerance("--coplanar-tolerance", coplanar_tolerance);
 }
 
-Plc read_input(const std::filesystem::path& path, const Domain_options& options) {
-  Plc plc = read_plc(path);
+namespace {
+
+/// STL is single precision, and what is closer than that has no meaning; what is written by hand has.
+Length simplification(const std::filesystem::path& path, const Domain_options& options) {
+  if (!options.tolerance.empty()) return parse_length("--tolerance", options.tolerance);
+  return is_surface_file(path) ? Length{1e-6, true} : Length{};
+}
+
+bool can_be_meshed(const Plc& plc, const Domain_options& options) {
+  try {
+    return find_problems(understand(plc, options), 1).errors.empty();
+  } catch (const Input_error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+Input read_input(const std::filesystem::path& path, const Domain_options& options) {
+  Input input{read_plc(path), {}};
+  Plc& plc = input.plc;
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
   for (const std::string& text : options.holes) {
     const auto p = parse_point("--hole", text);
@@ -61,11 +87,15 @@ Plc read_input(const std::filesystem::path& path, const Domain_options& options)
   std::vector<Plc_region<Default_kernel>> regions;
   for (const std::string& text : options.regions) regions.push_back(parse_region(text));
   plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
-  return plc;
+
+  Simplification done;
+  Plc simplified = simplify(plc, simplification(path, options).in_units(bounding_diagonal(plc)), &done);
+  if (!done.is_none() && can_be_meshed(simplified, options)) input = {std::move(simplified), done};
+  return input;
 }
 
 Domain understand(const Plc& plc, const Domain_options& options) {
-  return make_domain_3(plc, options.tolerance(), options.triangulate);
+  return make_domain_3(plc, options.fusing_tolerance(), options.triangulate);
 }
 
 void add_problems_option(CLI::App& parser, std::string& path) {

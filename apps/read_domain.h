@@ -14,6 +14,7 @@
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
 #include <pgdr/io/write_problems.h>
+#include <pgdr/simplify/simplify.h>
 
 namespace pgdr::app {
 
@@ -21,24 +22,32 @@ using Domain = Domain_3<Default_kernel>;
 
 /// How an input file is understood, as typed; shared by all commands so that they mean the same domain.
 struct Domain_options {
+  std::string tolerance;           ///< empty: 1e-6 of the diagonal for surface files, 0 for PLCs
   std::string coplanar_tolerance;  ///< empty: the library's default
   bool triangulate = false;
   std::string nesting;  ///< empty: the file format's own
   std::vector<std::string> holes;    ///< seeds besides those of the file
   std::vector<std::string> regions;  ///< seeds that count before those of the file
 
-  /// Adds `--coplanar-tolerance`, `--triangulate`, `--nested`, `--hole` and `--region`; the object must outlive the parsing.
+  /// Adds `--tolerance`, `--coplanar-tolerance`, `--triangulate`, `--nested`, `--hole` and `--region`; the object must outlive the parsing.
   void add_to(CLI::App& parser);
 
   /// Refuses nonsense before anything is read. Throws `Usage_error`.
   void check() const;
 
   /// The number behind `coplanar_tolerance`. Throws `Usage_error`.
-  double tolerance() const;
+  double fusing_tolerance() const;
 };
 
-/// Reads `path` and adds the seeds of the options. Throws `Input_error`.
-Plc read_input(const std::filesystem::path& path, const Domain_options& options);
+/// An input as it is meshed.
+struct Input {
+  Plc plc;  ///< with the seeds of the options
+  Simplification simplification;
+};
+
+/// Reads `path`, and simplifies it as far as the options say; not at all if the result could not be meshed, so that what is wrong is
+/// said of what is in the file. Throws `Input_error`.
+Input read_input(const std::filesystem::path& path, const Domain_options& options);
 
 /// Understands what was read. Throws `Input_error` for what cannot be understood at all.
 Domain understand(const Plc& plc, const Domain_options& options);

@@ -60,7 +60,12 @@ std::string stats_json(const Run_summary& run) {
     if (exempt_angles.size() < most_angles)
       exempt_angles.push_back({{"degrees", a.degrees}, {"between", a.between}, {"tetrahedra", a.tetrahedra}});
 
-  const Json json = {{"vertices", quality.vertices},
+  const Simplification& simplification = run.simplification;
+  const Json json = {{"simplification",
+                      {{"collapsed_edges", simplification.collapsed_edges},
+                       {"removed_needles", simplification.removed_needles},
+                       {"largest_change", simplification.largest_change}}},
+                     {"vertices", quality.vertices},
                      {"tetrahedra", quality.tetrahedra},
                      {"triangles", quality.triangles},
                      {"edges", quality.edges},

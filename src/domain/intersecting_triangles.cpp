@@ -12,6 +12,30 @@
 
 namespace pgdr::domain_detail {
 
+bool triangles_meet(std::array<Index, 3> a, std::array<Index, 3> b, const std::vector<Vec_3>& points) {
+  const auto point = [&](Index v) { return to_work_point(points[v]); };
+  const auto triangle = [&](const std::array<Index, 3>& t) { return Work_kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2])); };
+  // Rotate the common vertices to the front.
+  const auto shared = [](const std::array<Index, 3>& in) {
+    return [&in](Index v) { return std::find(in.begin(), in.end(), v) != in.end(); };
+  };
+  const auto common = std::stable_partition(a.begin(), a.end(), shared(b)) - a.begin();
+  std::stable_partition(b.begin(), b.end(), shared(a));
+  switch (common) {
+    case 0:
+      return CGAL::do_intersect(triangle(a), triangle(b));
+    case 1:  // what they have in common beyond the vertex would reach an opposite edge
+      return CGAL::do_intersect(Work_kernel::Segment_3(point(a[1]), point(a[2])), triangle(b)) ||
+             CGAL::do_intersect(Work_kernel::Segment_3(point(b[1]), point(b[2])), triangle(a));
+    case 2: {
+      const Work_point p = point(a[0]), q = point(a[1]), x = point(a[2]), y = point(b[2]);
+      return CGAL::orientation(p, q, x, y) == CGAL::COPLANAR && CGAL::coplanar_orientation(p, q, x, y) == CGAL::POSITIVE;
+    }
+    default:
+      return true;
+  }
+}
+
 Intersection_finder::Intersection_finder(const Triangle_soup& soup) : soup_(soup) {
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     triangle_boxes_.push_back({soup.triangle(t).bbox(), t});
@@ -22,7 +46,7 @@ std::vector<Id_pair> Intersection_finder::triangles() const {
   std::vector<Box> boxes = triangle_boxes_;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
     const std::size_t s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
-    if (soup_.facet[s] != soup_.facet[t] && triangles_meet(s, t)) result.push_back({s, t});
+    if (soup_.facet[s] != soup_.facet[t] && triangles_meet(soup_.triangles[s], soup_.triangles[t], soup_.points)) result.push_back({s, t});
   });
   std::sort(result.begin(), result.end());
   return result;
@@ -86,31 +110,6 @@ std::vector<Intersection_finder::Box> Intersection_finder::segment_boxes(const s
 }
 
 Intersection_finder::Segment Intersection_finder::segment(Index a, Index b) const { return {soup_.point(a), soup_.point(b)}; }
-
-bool Intersection_finder::triangles_meet(std::size_t s, std::size_t t) const {
-  // Rotate the common vertices to the front.
-  std::array<Index, 3> a = soup_.triangles[s], b = soup_.triangles[t];
-  const auto shared = [](const std::array<Index, 3>& in) {
-    return [&in](Index v) { return std::find(in.begin(), in.end(), v) != in.end(); };
-  };
-  const auto common = std::stable_partition(a.begin(), a.end(), shared(b)) - a.begin();
-  std::stable_partition(b.begin(), b.end(), shared(a));
-  switch (common) {
-    case 0:
-      return CGAL::do_intersect(soup_.triangle(s), soup_.triangle(t));
-    case 1:  // what they have in common beyond the vertex would reach an opposite edge
-      return CGAL::do_intersect(segment(a[1], a[2]), soup_.triangle(t)) ||
-             CGAL::do_intersect(segment(b[1], b[2]), soup_.triangle(s));
-    case 2: {
-      const Work_point p = soup_.point(a[0]), q = soup_.point(a[1]), x = soup_.point(a[2]),
-                       y = soup_.point(b[2]);
-      return CGAL::orientation(p, q, x, y) == CGAL::COPLANAR &&
-             CGAL::coplanar_orientation(p, q, x, y) == CGAL::POSITIVE;
-    }
-    default:
-      return true;
-  }
-}
 
 bool Intersection_finder::segment_meets(const std::array<Index, 2>& s, std::size_t triangle) const {
   const std::array<Index, 3>& t = soup_.triangles[triangle];

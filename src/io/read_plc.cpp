@@ -32,6 +32,11 @@ Plc read_plc(const std::filesystem::path& path) {
           "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj");
 }
 
+bool is_surface_file(const std::filesystem::path& path) {
+  const std::string extension = io_detail::lower_extension(path);
+  return is_known_plc_extension(path) && extension != ".poly" && extension != ".smesh";
+}
+
 bool is_known_plc_extension(const std::filesystem::path& path) {
   const std::string extension = io_detail::lower_extension(path);
   for (const char* known : {".poly", ".smesh", ".off", ".stl", ".ply", ".obj"}) {

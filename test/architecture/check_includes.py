@@ -21,6 +21,7 @@ ALLOWED = {
     "parallel": set(),
     "octree": set(),
     "independence": {"octree"},
+    "simplify": {"domain"},
 }
 # For a room: the rooms that it must not include.
 FORBIDDEN = {

@@ -19,6 +19,9 @@ namespace pgdr {
 /// Throws `Input_error`, whose message is one sentence with the file and, in text files, the 1-based line.
 Plc read_plc(const std::filesystem::path& path);
 
+/// Whether the extension is that of a surface format.
+bool is_surface_file(const std::filesystem::path& path);
+
 /// Whether `read_plc` knows the extension.
 bool is_known_plc_extension(const std::filesystem::path& path);
 

@@ -15,11 +15,13 @@
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/report/format.h>
 #include <pgdr/report/run_statistics.h>
+#include <pgdr/simplify/simplify.h>
 
 namespace pgdr {
 
 /// Everything that is said about a run when it is over.
 struct Run_summary {
+  Simplification simplification;
   Mesh_quality quality;
   std::size_t exempt_tetrahedra = 0;
   std::vector<Exempt_angle> exempt_angles;
@@ -65,6 +67,12 @@ inline void print_exempt_angles(std::ostream& out, const std::vector<Exempt_angl
   line(rest, counted(angles.size() - most, "other angle", "others"));
 }
 
+/// What was taken away of the input.
+inline std::string simplification_text(const Simplification& s) {
+  return counted(s.collapsed_edges, "short edge", "short edges") + " and " + counted(s.removed_needles, "needle", "needles") +
+         " taken away, a change of at most " + significant(s.largest_change, 3);
+}
+
 /// Writes the summary for people: one property a line.
 inline void print_summary(std::ostream& out, const Run_summary& run) {
   const Mesh_quality& quality = run.quality;
@@ -73,6 +81,8 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
     if (!remark.empty()) out << "  " << remark;
     out << '\n';
   };
+  if (!run.simplification.is_none())
+    line("simplified", with_separators(run.simplification.triangles_after), "facets: " + simplification_text(run.simplification));
   line("vertices", with_separators(quality.vertices),
        with_separators(run.steiner_points) + " of them Steiner points");
   line("tetrahedra", with_separators(quality.tetrahedra),

@@ -14,6 +14,9 @@ namespace pgdr::domain_detail {
 
 using Id_pair = std::array<std::size_t, 2>;
 
+/// Whether two triangles meet other than in common vertices and edges. Exact.
+bool triangles_meet(std::array<Index, 3> a, std::array<Index, 3> b, const std::vector<Vec_3>& points);
+
 /// Finds what meets other than in common vertices and edges, by exact predicates.
 class Intersection_finder {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
@@ -41,8 +44,6 @@ class Intersection_finder {
   std::vector<Box> segment_boxes(const std::vector<std::array<Index, 2>>& segments) const;
 
   Segment segment(Index a, Index b) const;
-
-  bool triangles_meet(std::size_t s, std::size_t t) const;
 
   bool segment_meets(const std::array<Index, 2>& s, std::size_t triangle) const;
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SIMPLIFY_SIMPLIFY_H
+#define PGDR_SIMPLIFY_SIMPLIFY_H
+
+#include <cstddef>
+
+#include <pgdr/domain/default_kernel.h>
+
+namespace pgdr {
+
+/// What `simplify` did.
+struct Simplification {
+  std::size_t triangles_before = 0, triangles_after = 0;
+  std::size_t collapsed_edges = 0;   ///< shorter than the tolerance: one of their ends is gone
+  std::size_t removed_needles = 0;   ///< triangles that were lower than the tolerance: their longest edge goes through their third corner
+  double largest_change = 0;         ///< no point of either boundary is farther from the other one; at most the tolerance
+
+  bool is_none() const { return collapsed_edges + removed_needles == 0; }
+};
+
+/// Takes away what makes elements small without need: edges shorter than `tolerance`, and triangles lower than that, smallest first. No
+/// vertex moves; some are gone in the end, and some edges go through vertices that were next to them.
+///
+/// The boundary changes by at most `tolerance` (two-sided Hausdorff distance; each step adds its own to what the
+/// vertices it touches have seen so far). It keeps its topology and gets no intersections: a step that would break that, decided
+/// by exact predicates, is not done. Only triangles change; polygons with more corners, explicit segments, and the vertices of either stay.
+/// \param tolerance a length; 0 or less: nothing is changed
+/// \return `plc` itself where nothing was to be done
+Plc simplify(const Plc& plc, double tolerance, Simplification* done = nullptr);
+
+/// Length of the diagonal of the bounding box of the vertices.
+double bounding_diagonal(const Plc& plc);
+
+}  // namespace pgdr
+
+#endif
