@@ -11,7 +11,7 @@ enum Exit_code {
       1,  ///< a check that fails, an output that cannot be written, anything without a number of its own
   exit_usage = 2,  ///< options that make no sense
   exit_bad_input = 3,
-  exit_stopped = 4  ///< by a limit or by the user; the mesh that was written is valid
+  exit_stopped = 4  ///< by a limit or by the user; what was written, if there is anything to write, is valid
 };
 
 }  // namespace pgdr::app

@@ -202,7 +202,10 @@ int run_mesh(const Mesh_arguments& arguments) {
   run.exempt_tetrahedra = mesh.exempt.size();
   run.exempt_angles = exempt_angles(mesh, *domain);
   timer.end_phase("measuring");
+  // A mesh of nothing is of no use to anybody, and what it would replace may be.
+  const bool is_usable = !mesh.tetrahedra.empty();
   for (const std::string& output : arguments.outputs) {
+    if (!is_usable) break;
     progress.show("writing " + output);
     write_mesh(mesh, output);
   }
@@ -215,9 +218,13 @@ int run_mesh(const Mesh_arguments& arguments) {
   if (!arguments.stats.empty()) write_stats(run, arguments.stats);
   if (!arguments.trace.empty()) write_trace(run.schedule, arguments.trace);
   if (!arguments.quiet) print_summary(std::cout, run);
+  if (run.stop == Stop_reason::finished && !is_usable) {
+    print_message(arguments.input + " encloses nothing that is not a hole: there are no tetrahedra, and nothing was written");
+    return exit_bad_input;
+  }
   if (run.stop == Stop_reason::finished) return exit_done;
-  print_message(run.stop_message.empty() ? std::string("stopped: ") + stop_reason_name(run.stop)
-                                         : run.stop_message);
+  const std::string message = run.stop_message.empty() ? std::string("stopped: ") + stop_reason_name(run.stop) : run.stop_message;
+  print_message(is_usable || arguments.outputs.empty() ? message : message + "; there are no tetrahedra, and nothing was written");
   return exit_stopped;
 }
 

@@ -51,6 +51,7 @@ class Mesher_3 {
     start_ = Clock::now();
     build_complex(mesh_.complex(), features_.pool(), insert_domain_vertices(mesh_.triangulation(), mesh_.domain()));
     features_.images().find_facets();
+    features_.set_cancel(parameters_.cancel);
     const auto on_hull = corner_of_hull(mesh_.triangulation());
     lap("triangulation");
     start_segment_recovery(mesh_.triangulation(), features_);

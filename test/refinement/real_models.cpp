@@ -62,10 +62,10 @@ TEST_CASE("A bunny is meshed", "[models]") {
 }
 
 TEST_CASE("Needles are meshed", "[models]") {
-  // Half of what that program leaves, or less, in both cases.
-  const auto anchor = checked("a04_anchor.off", 625);
+  // Half of what that program leaves would be 625; why it is more: docs/robustness.md.
+  const auto anchor = checked("a04_anchor.off", 900);
   if (!anchor) PGDR_SKIP("the real models are not here");
-  CHECK(anchor->tetrahedra.size() < 5 * 21384);  // TetGen's number
+  CHECK(anchor->tetrahedra.size() < 4 * 21384);  // TetGen's number
   if (!checked("a12_triceratops.off", 1791)) PGDR_SKIP("the real models are not here");
 }
 

@@ -3,6 +3,8 @@
 #define PGDR_CONFORMING_FEATURE_REFINER_3_H
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -71,12 +73,12 @@ class Feature_refiner_3 {
   /// Queues a piece that v encroaches.
   void note_encroached_subsegment(std::uint32_t s, Vertex_handle v) {
     queues_.subsegments.push({complex_.subsegment_id(s), Split_reason::encroached, v->insertion_radius(),
-                              spacing_.reach({1, complex_.subsegment(s).segment}, split_points_.of_subsegment(s), v)});
+                              spacing_.reach({1, complex_.subsegment(s).segment}, split_points_.of_subsegment(s), v), v->relaxed_radius()});
   }
   void note_encroached_subfacet(std::uint32_t t, Vertex_handle v) {
     constexpr auto reason = Split_reason::encroached;
     queues_.subfacets.push({complex_.subfacet_id(t), reason, v->insertion_radius(),
-                            spacing_.reach({2, complex_.subfacet(t).facet}, split_points_.of_subfacet(t, reason), v)});
+                            spacing_.reach({2, complex_.subfacet(t).facet}, split_points_.of_subfacet(t, reason), v), v->relaxed_radius()});
   }
   /// Queues a present subfacet that one of its two opposite vertices encroaches.
   void request_if_encroached(std::uint32_t slot) {
@@ -102,6 +104,9 @@ class Feature_refiner_3 {
   /// What may be changed, beside other tasks: everything to begin with. Requests must be for own pieces. A split that
   /// would change more, or look farther, is `elsewhere`.
   void set_territory(const Territory_3<Tr>& territory) { cavity_.set_territory(territory); }
+  /// Set from any thread when nothing further is wanted; may be null. Nothing goes on for long then.
+  void set_cancel(const std::atomic<bool>* cancel) { cancel_ = cancel; }
+  bool is_cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
   Feature_queues& queues() { return queues_; }
   bool has_subsegments() const { return !queues_.subsegments.empty(); }
   bool is_idle() const { return queues_.empty(); }
@@ -128,9 +133,11 @@ class Feature_refiner_3 {
   void step() { handle(false); }
 
   /// Recovers what is missing and forgets all other requests, so that a run that has to stop leaves every facet
-  /// whole; gives up after `limit` requests.
+  /// whole; gives up after `limit` requests, and where somebody waits for it after a second.
   void close(std::size_t limit) {
-    while (!is_idle() && limit-- > 0) handle(true);
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::seconds(1);
+    while (!is_idle() && limit-- > 0 && !(is_cancelled() && Clock::now() > end)) handle(true);
   }
 
   /// Splits a subsegment.
@@ -171,6 +178,7 @@ class Feature_refiner_3 {
     for (const Vertex_handle end : s.vertices)
       if (split_points_.is_acute(end))
         v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
+    inherit(v, guard);
     finish(v, complex_.halve_subsegment(pool_, slot, v), slot);
     complex_.remove_subsegment(pool_, slot);
     mirror(v, reason);
@@ -223,7 +231,7 @@ class Feature_refiner_3 {
     if (spacing_.is_too_close(cavity_, m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
       return abandon();
-    const Vertex_handle v = insert_on_facet(at.subfacet, p, m);
+    const Vertex_handle v = insert_on_facet(at.subfacet, p, m, guard);
     if (v == Vertex_handle()) return blocked(stars_[0].is_foreign(), m, complex_.subfacet_id(slot), false);
     mirror(v, reason);
     return Split_outcome::inserted;
@@ -422,7 +430,8 @@ class Feature_refiner_3 {
 
   void put_images() {
     if (std::exchange(is_putting_images_, true)) return;
-    while (!images_.empty()) put_image(images_.pop());
+    while (!images_.empty())
+      if (const Image i = images_.pop(); !is_cancelled()) put_image(i);
     is_putting_images_ = false;
   }
 
@@ -442,6 +451,7 @@ class Feature_refiner_3 {
     if (!way.empty()) return make_way(i, way);
     if (const Vertex_handle v = insert_on_facet(at, p, i.at); v != Vertex_handle()) {
       v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
+      v->relax_radius(i.by->relaxed_radius());
       images_.add_of(v, made_, i.is_usual);
     } else if (stars_[0].is_foreign()) {
       hand_on(i);
@@ -465,7 +475,7 @@ class Feature_refiner_3 {
     for (const Piece_id& s : way) {
       if (!complex_.is_live_subsegment(s)) continue;
       const Feature_id on{1, complex_.subsegment(s.slot).segment};
-      const Split_guard guard{.floor = i.by->insertion_radius(), .reach = spacing_.reach(on, split_points_.of_subsegment(s.slot), i.by)};
+      const Split_guard guard{.floor = i.by->insertion_radius(), .reach = spacing_.reach(on, split_points_.of_subsegment(s.slot), i.by), .relaxed = i.by->relaxed_radius()};
       const Split_outcome outcome = split_subsegment(s.slot, Split_reason::encroached, guard);
       is_split |= outcome == Split_outcome::inserted;
       is_elsewhere |= outcome == Split_outcome::elsewhere && !territory().is_everything();
@@ -478,7 +488,7 @@ class Feature_refiner_3 {
 
   /// Inserts p into the subfacet that holds it. None, with the cavity abandoned, if the sheet would not stay whole.
   /// \pre p's cavity is found and its features are gathered
-  Vertex_handle insert_on_facet(std::uint32_t at, const Point& p, const Vec_3& m) {
+  Vertex_handle insert_on_facet(std::uint32_t at, const Point& p, const Vec_3& m, const Split_guard& guard = {}) {
     features_.mark_deleted(complex_, true);
     stars_.resize(1);
     if (!stars_[0].plan(complex_, at, p, Complex::none, territory())) {
@@ -487,6 +497,7 @@ class Feature_refiner_3 {
       return {};
     }
     const Vertex_handle v = commit(p, m, {2, complex_.subfacet(at).facet});
+    inherit(v, guard);
     finish(v, {Complex::none, Complex::none}, Complex::none);
     return v;
   }
@@ -498,6 +509,14 @@ class Feature_refiner_3 {
     v->set_insertion_radius(radius);
     ++inserted_;
     return v;
+  }
+
+  /// The relaxed insertion radius of its cause, and part of it as its own where it was let closer to others for its cause's sake
+  /// (`floor_apart`): a chain of causes does not go down by the same factor time after time.
+  static void inherit(Vertex_handle v, const Split_guard& guard) {
+    constexpr double part = 0.75;  // table in docs/robustness.md
+    if (guard.floor_apart > 0) v->set_insertion_radius(std::max<double>(v->insertion_radius(), part * guard.floor));
+    v->relax_radius(guard.relaxed);
   }
 
   /// After a point was inserted: replaces the planned stars, marks what is present, queues what is missing or encroached.
@@ -556,6 +575,7 @@ class Feature_refiner_3 {
   bool keep_fresh_ = false;
   bool torn_ = false;
   bool is_putting_images_ = false;
+  const std::atomic<bool>* cancel_ = nullptr;
 };
 
 }  // namespace pgdr

@@ -39,6 +39,7 @@ struct Split_guard {
   double reach = 0;                     ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
   double floor_apart = 0;               ///< if positive, in the place of `floor` for pieces without a vertex in which
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
+  double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex inherits
   bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
 
   /// Whether the client is given up as soon as one piece in its way refuses: with an edge as short as a small angle makes it, unless
@@ -58,9 +59,10 @@ struct Feature_request {
   Piece_id piece;
   Split_reason reason;
   double floor = 0;
-  double reach = 0;  ///< like the floor, see `Split_guard`
+  double reach = 0;    ///< like the floor, see `Split_guard`
+  double relaxed = 0;  ///< the same
 
-  Split_guard guard() const { return {.floor = floor, .reach = reach}; }
+  Split_guard guard() const { return {.floor = floor, .reach = reach, .relaxed = relaxed}; }
 };
 
 /// The pieces of one leaf that wait to be split, subsegments before subfacets.

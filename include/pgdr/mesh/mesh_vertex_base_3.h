@@ -2,6 +2,7 @@
 #ifndef PGDR_MESH_MESH_VERTEX_BASE_3_H
 #define PGDR_MESH_MESH_VERTEX_BASE_3_H
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -34,7 +35,11 @@ class Mesh_vertex_base_3 : public Vb {
 
   /// Distance to the nearest vertex at the time of insertion; 0 for input vertices, which may be refined at will.
   float insertion_radius() const { return insertion_radius_; }
-  void set_insertion_radius(double r) { insertion_radius_ = static_cast<float>(r); }
+  void set_insertion_radius(double r) { insertion_radius_ = relaxed_radius_ = static_cast<float>(r); }
+
+  /// That of the first of its causes, where a vertex was let closer to others than its cause had been; else its own. At least its own.
+  float relaxed_radius() const { return relaxed_radius_; }
+  void relax_radius(double r) { relaxed_radius_ = std::max(relaxed_radius_, static_cast<float>(r)); }
 
   /// The two subsegments that meet in a vertex of dimension 1.
   std::array<std::uint32_t, 2>& subsegments() { return subsegments_; }
@@ -54,6 +59,7 @@ class Mesh_vertex_base_3 : public Vb {
   std::uint32_t number_ = none;
   std::array<std::uint32_t, 2> subsegments_{none, none};
   float insertion_radius_ = 0;
+  float relaxed_radius_ = 0;
   mutable std::uint16_t territory_ = 0;
   std::uint8_t dimension_ = 3;
 };

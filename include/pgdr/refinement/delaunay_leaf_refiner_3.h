@@ -270,19 +270,19 @@ class Delaunay_leaf_refiner_3 {
   /// what follows from it in `list`, for `dispatch`. `closing` also recovers what is missing elsewhere and drops all
   /// other requests, so that a run that has to stop leaves every facet whole.
   template <class Lists>
-  Drain_result settle(Worker& w, Lists&& torn, bool closing, double outside_target, Worklist& list) {
+  Drain_result settle(Worker& w, Lists&& torn, bool closing, double outside_target, Worklist& list,
+                      const std::atomic<bool>* cancel = nullptr) {
     for (Worklist* t : torn) list.take_torn(*t, closing);
     Leaf_task task;
     task.target = std::numeric_limits<double>::infinity();
     task.outside_target = outside_target;
+    task.cancel = cancel;
     open(w, task, list);
     Features& features = w.features_;
     const std::size_t before = features.inserted();
-    if (closing)
-      features.close(10000);
-    else
-      while (features.step_missing()) {
-      }
+    while (!closing && !features.is_cancelled() && features.step_missing()) {
+    }
+    if (closing || features.is_cancelled()) features.close(10000);
     features.queues().subsegments.release_if_empty();
     mend_subdomains(features);
     features.set_torn(false);
@@ -349,6 +349,7 @@ class Delaunay_leaf_refiner_3 {
     Features& f = w.features_;
     f.set_region(task.region, task.near);
     f.set_territory({task.territory});
+    f.set_cancel(task.cancel);
     std::swap(f.queues(), list.queues_);
     std::swap(f.stranded(), list.stranded_);
     std::swap(f.fresh_cells(), list.fresh_);
@@ -822,7 +823,8 @@ class Delaunay_leaf_refiner_3 {
       const std::uint32_t t = subfacet_of_flat_cell(complex_, d);
       if (t == Complex::none) continue;
       if (!hand_to_outside(complex_, d)) {
-        w.features_.request_subfacet(t, Split_reason::flat);
+        // In a bent facet any four vertices may be off one plane by what they are apart, and another point makes other such four.
+        if (!complex_.is_bent(complex_.subfacet(t).facet)) w.features_.request_subfacet(t, Split_reason::flat);
         continue;
       }
       for (int i = 0; i < 4; ++i) {

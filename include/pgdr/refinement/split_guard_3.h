@@ -88,7 +88,9 @@ Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
     guard.reach = std::numeric_limits<double>::infinity();  // it is next to the angle, however large
     const bool is_at_wedge = !acute.meet_at_vertices_only(a, b);
     guard.is_at_wedge |= is_at_wedge;
-    if (is_at_wedge || radius * radius > most_points * most_points * ball.squared_shortest) return;
+    const double relaxed = std::min(c->vertex(static_cast<int>(i))->relaxed_radius(), c->vertex(static_cast<int>(j))->relaxed_radius());
+    guard.relaxed = std::max(guard.relaxed, relaxed);
+    if (is_at_wedge || relaxed * relaxed > most_points * most_points * ball.squared_shortest) return;
     guard.meeting = {a, b};
     guard.floor_apart = 0.5 * std::sqrt(ball.squared_shortest);
   });

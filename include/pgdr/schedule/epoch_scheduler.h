@@ -378,7 +378,7 @@ class Epoch_scheduler {
     if (torn.empty()) return;
     const double begin = recorder_.now();
     Worklist rest;
-    const Drain_result result = engine_.settle(*workers_[0], torn, closing, target, rest);
+    const Drain_result result = engine_.settle(*workers_[0], torn, closing, target, rest, parameters_.cancel);
     vertices_ += result.inserted;
     statistics_.settled += result.inserted;
     statistics_.epochs.back().inserted += result.inserted;
