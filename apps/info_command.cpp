@@ -100,10 +100,11 @@ void check_outputs(const Info_arguments& arguments) {
 
 int run_info(const Info_arguments& arguments) {
   check_outputs(arguments);
-  const auto [plc, simplification] = read_input(arguments.input, arguments.domain);
-  if (!simplification.is_none()) print_line("simplified", simplification_text(simplification) + "; --tolerance 0 keeps them");
-  with_problem_file(arguments.problems, plc, [&, &plc = plc] {
-    const Domain domain = understand(plc, arguments.domain);
+  const Input input = read_input(arguments.input, arguments.domain);
+  if (!input.simplification.is_none())
+    print_line("simplified", simplification_text(input.simplification) + "; --tolerance 0 keeps them");
+  with_problem_file(arguments.problems, input.plc, [&] {
+    const Domain domain = understand(input.plc, arguments.domain);
     const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(arguments.problems));
     print_summary(summary);
     std::cout.flush();

@@ -204,11 +204,11 @@ int run_mesh(const Mesh_arguments& arguments) {
   timer.end_phase("measuring");
   // A mesh of nothing is of no use to anybody, and what it would replace may be.
   const bool is_usable = !mesh.tetrahedra.empty();
-  for (const std::string& output : arguments.outputs) {
-    if (!is_usable) break;
-    progress.show("writing " + output);
-    write_mesh(mesh, output);
-  }
+  if (is_usable)
+    for (const std::string& output : arguments.outputs) {
+      progress.show("writing " + output);
+      write_mesh(mesh, output);
+    }
   progress.erase();
   timer.end_phase("writing");
 

@@ -8,9 +8,10 @@
 #include <limits>
 #include <queue>
 #include <set>
-#include <span>
 #include <utility>
 #include <vector>
+
+#include <CGAL/Bbox_3.h>
 
 #include <pgdr/domain/make_domain_3.h>
 
@@ -45,10 +46,11 @@ class Simplifier {
   /// The steps that were done, as `Fixed::steps`; `Triangle::step` counts them from 1.
   const std::vector<Corners>& steps() const { return steps_; }
 
-  void run(Simplification& done) {
+  Simplification run() {
+    Simplification done;
     // What was refused may be possible once its neighbors have changed. Every step takes a vertex away, or raises the lowest of the
     // triangles that it changes, so that there is a last one.
-    for (std::size_t before = done.collapsed_edges + done.removed_needles;; before = done.collapsed_edges + done.removed_needles) {
+    for (std::size_t before = 0;; before = steps_.size()) {
       for (const Triangle& t : complex_.triangles())
         if (t.alive) enqueue(t.corners);
       while (!queue_.empty()) {
@@ -61,10 +63,11 @@ class Simplifier {
         else
           done.removed_needles += remove_needle(c.corners);
       }
-      if (done.collapsed_edges + done.removed_needles == before) break;
+      if (steps_.size() == before) break;
     }
     for (const Triangle& t : complex_.triangles())
       if (t.alive) done.largest_change = std::max(done.largest_change, change_of(t));
+    return done;
   }
 
  private:
@@ -220,7 +223,7 @@ class Simplifier {
     const double before = lowest(removed_, [&](Index t) { return complex_.triangles()[t].corners; });
     const double after = lowest(made_, [](const Triangle& t) { return t.corners; });
     if (takes_vertex ? after < before : !(after > before)) return false;
-    if (complex_.would_meet(made_, removed_) || sharpens(made_)) return false;
+    if (complex_.would_meet(made_, removed_) || sharpens()) return false;
     steps_.push_back(step_);
     for (Triangle& t : made_) t.step = static_cast<Index>(steps_.size());
     complex_.replace(removed_, made_);
@@ -228,10 +231,10 @@ class Simplifier {
     return true;
   }
 
-  /// Whether that makes a dihedral angle that is small, and smaller than what was there.
-  bool sharpens(std::span<const Triangle> made) const {
+  /// Whether that step makes a dihedral angle that is small, and smaller than what was there.
+  bool sharpens() const {
     constexpr double limit = 0.5;  // of 60 degrees: above, refinement has no trouble
-    const double after = complex_.sharpest_cosine(made, removed_);
+    const double after = complex_.sharpest_cosine(made_, removed_);
     if (after <= limit) return false;
     std::vector<Triangle> before;
     for (const Index t : removed_) before.push_back(complex_.triangles()[t]);
@@ -253,13 +256,8 @@ class Simplifier {
 
 double bounding_diagonal(const Plc& plc) {
   if (plc.vertices.empty()) return 0;
-  Vec_3 lower = to_vec(plc.vertices[0]), upper = lower;
-  for (const auto& p : plc.vertices)
-    for (int i = 0; i < 3; ++i) {
-      lower[i] = std::min(lower[i], to_vec(p)[i]);
-      upper[i] = std::max(upper[i], to_vec(p)[i]);
-    }
-  return length(upper - lower);
+  const CGAL::Bbox_3 box = CGAL::bbox_3(plc.vertices.begin(), plc.vertices.end());
+  return length(Vec_3{box.xmax(), box.ymax(), box.zmax()} - Vec_3{box.xmin(), box.ymin(), box.zmin()});
 }
 
 Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
@@ -267,7 +265,6 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
   Simplification ignored;
   Simplification& report = done ? *done : ignored;
   report = {};
-  report.triangles_before = report.triangles_after = plc.facets.size();
   if (!(tolerance > 0) || !domain_detail::unusable_input(plc).empty()) return plc;
 
   std::vector<Vec_3> points;
@@ -307,7 +304,7 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
   Triangle_complex complex = input;
   for (int round = 0;; ++round) {
     Simplifier simplifier(complex, fixed, tolerance);
-    simplifier.run(report);
+    report = simplifier.run();
     bool is_complete = true;
     for (const auto& t : complex.triangles()) {
       if (!t.alive || t.step == 0 || complex.height(t.corners) > tolerance) continue;
@@ -318,8 +315,6 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
     }
     if (is_complete) break;
     complex = input;
-    report.collapsed_edges = report.removed_needles = 0;
-    report.largest_change = 0;
   }
   if (report.is_none()) return plc;
 
@@ -358,7 +353,7 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
     s.source = number[first[s.source]];
     s.target = number[first[s.target]];
   }
-  report.triangles_after = result.facets.size();
+  report.facets = result.facets.size();
   return result;
 }
 

@@ -32,6 +32,10 @@ std::vector<Index> Triangle_complex::at_edge(Index a, Index b) const {
   return result;
 }
 
+bool Triangle_complex::has_edge(Index a, Index b) const {
+  return std::ranges::any_of(at_[a], [&](Index t) { return contains(triangles_[t].corners, b); });
+}
+
 std::vector<Index> Triangle_complex::neighbors(Index v) const {
   std::vector<Index> result;
   for (const Index t : at_[v])
@@ -121,13 +125,9 @@ void Triangle_complex::replace(std::span<const Index> removed, std::span<const T
 }
 
 Triangle_complex::Box Triangle_complex::box(const Corners& c) const {
-  Vec_3 lower = points_[c[0]], upper = lower;
-  for (const Index v : c)
-    for (int i = 0; i < 3; ++i) {
-      lower[i] = std::min(lower[i], points_[v][i]);
-      upper[i] = std::max(upper[i], points_[v][i]);
-    }
-  return {Point(lower.x, lower.y, lower.z), Point(upper.x, upper.y, upper.z)};
+  const auto of = [&](Index v) { return domain_detail::to_work_point(points_[v]).bbox(); };
+  const CGAL::Bbox_3 b = of(c[0]) + of(c[1]) + of(c[2]);
+  return {Point(b.xmin(), b.ymin(), b.zmin()), Point(b.xmax(), b.ymax(), b.zmax())};
 }
 
 }  // namespace pgdr::simplify_detail

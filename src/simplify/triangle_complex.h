@@ -39,7 +39,7 @@ class Triangle_complex {
   /// The vertices that share a triangle with v, ascending.
   std::vector<Index> neighbors(Index v) const;
   bool has_triangle(Corners c) const;
-  bool has_edge(Index a, Index b) const { return !at_edge(a, b).empty(); }
+  bool has_edge(Index a, Index b) const;
 
   double edge_length(Index a, Index b) const { return length(points_[a] - points_[b]); }
   /// Above its longest edge.

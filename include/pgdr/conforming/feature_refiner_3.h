@@ -72,13 +72,13 @@ class Feature_refiner_3 {
   }
   /// Queues a piece that v encroaches.
   void note_encroached_subsegment(std::uint32_t s, Vertex_handle v) {
-    queues_.subsegments.push({complex_.subsegment_id(s), Split_reason::encroached, v->insertion_radius(),
-                              spacing_.reach({1, complex_.subsegment(s).segment}, split_points_.of_subsegment(s), v), v->relaxed_radius()});
+    const Feature_id on{1, complex_.subsegment(s).segment};
+    request(true, Feature_request::encroached(complex_.subsegment_id(s), spacing_.guard(on, split_points_.of_subsegment(s), v)));
   }
   void note_encroached_subfacet(std::uint32_t t, Vertex_handle v) {
-    constexpr auto reason = Split_reason::encroached;
-    queues_.subfacets.push({complex_.subfacet_id(t), reason, v->insertion_radius(),
-                            spacing_.reach({2, complex_.subfacet(t).facet}, split_points_.of_subfacet(t, reason), v), v->relaxed_radius()});
+    const Feature_id on{2, complex_.subfacet(t).facet};
+    const Vec_3 m = split_points_.of_subfacet(t, Split_reason::encroached);
+    request(false, Feature_request::encroached(complex_.subfacet_id(t), spacing_.guard(on, m, v)));
   }
   /// Queues a present subfacet that one of its two opposite vertices encroaches.
   void request_if_encroached(std::uint32_t slot) {
@@ -475,7 +475,7 @@ class Feature_refiner_3 {
     for (const Piece_id& s : way) {
       if (!complex_.is_live_subsegment(s)) continue;
       const Feature_id on{1, complex_.subsegment(s.slot).segment};
-      const Split_guard guard{.floor = i.by->insertion_radius(), .reach = spacing_.reach(on, split_points_.of_subsegment(s.slot), i.by), .relaxed = i.by->relaxed_radius()};
+      const Split_guard guard = spacing_.guard(on, split_points_.of_subsegment(s.slot), i.by);
       const Split_outcome outcome = split_subsegment(s.slot, Split_reason::encroached, guard);
       is_split |= outcome == Split_outcome::inserted;
       is_elsewhere |= outcome == Split_outcome::elsewhere && !territory().is_everything();

@@ -62,6 +62,9 @@ struct Feature_request {
   double reach = 0;    ///< like the floor, see `Split_guard`
   double relaxed = 0;  ///< the same
 
+  static Feature_request encroached(Piece_id piece, const Split_guard& guard) {
+    return {piece, Split_reason::encroached, guard.floor, guard.reach, guard.relaxed};
+  }
   Split_guard guard() const { return {.floor = floor, .reach = reach, .relaxed = relaxed}; }
 };
 

@@ -42,6 +42,11 @@ class Split_spacing_3 {
     return explained ? std::numeric_limits<double>::infinity() : 0;
   }
 
+  /// For the split of a piece at m that v asks for.
+  Split_guard guard(const Feature_id& on, const Vec_3& m, typename Tr::Vertex_handle v) const {
+    return {.floor = v->insertion_radius(), .reach = reach(on, m, v), .relaxed = v->relaxed_radius()};
+  }
+
   /// Whether m, the split point of a piece with these vertices and this radius, is not to be inserted.
   bool is_too_close(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason,
                     const Split_guard& guard, double radius) const {

@@ -82,7 +82,7 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
     out << '\n';
   };
   if (!run.simplification.is_none())
-    line("simplified", with_separators(run.simplification.triangles_after), "facets: " + simplification_text(run.simplification));
+    line("simplified", with_separators(run.simplification.facets), "facets: " + simplification_text(run.simplification));
   line("vertices", with_separators(quality.vertices),
        with_separators(run.steiner_points) + " of them Steiner points");
   line("tetrahedra", with_separators(quality.tetrahedra),

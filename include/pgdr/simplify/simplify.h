@@ -10,7 +10,7 @@ namespace pgdr {
 
 /// What `simplify` did.
 struct Simplification {
-  std::size_t triangles_before = 0, triangles_after = 0;
+  std::size_t facets = 0;            ///< that are left; 0 where nothing was done
   std::size_t collapsed_edges = 0;   ///< shorter than the tolerance: one of their ends is gone
   std::size_t removed_needles = 0;   ///< triangles that were lower than the tolerance: their longest edge goes through their third corner
   double largest_change = 0;         ///< no point of either boundary is farther from the other one; at most the tolerance
@@ -21,8 +21,7 @@ struct Simplification {
 /// Takes away what makes elements small without need: edges shorter than `tolerance`, and triangles lower than that, smallest first. No
 /// vertex moves; some are gone in the end, and some edges go through vertices that were next to them.
 ///
-/// The boundary changes by at most `tolerance` (two-sided Hausdorff distance; each step adds its own to what the
-/// vertices it touches have seen so far). It keeps its topology and gets no intersections: a step that would break that, decided
+/// The boundary changes by at most `tolerance` (two-sided Hausdorff distance, bounded by a map of the input onto the result). It keeps its topology and gets no intersections: a step that would break that, decided
 /// by exact predicates, is not done. Only triangles change; polygons with more corners, explicit segments, and the vertices of either stay.
 /// \param tolerance a length; 0 or less: nothing is changed
 /// \return `plc` itself where nothing was to be done
