@@ -3,8 +3,8 @@
 """Meshes small random PLCs that are hard on a mesher, by quality alone, and checks the meshes.
 
 Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only,
-dented hulls of random points, balls with regular folds, blocks with a top that is not quite flat; some of them turned, moved,
-scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the numbers of those that
+dented hulls of random points, balls with regular folds, blocks with a top that is not quite flat, curved tops of fused strips of needles,
+bodies that nearly touch, terraces that are nearly flat; some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the numbers of those that
 did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that the failure does not need.
 
 usage: bench/random_plcs.py [--first N] [--count N] [--kinds KIND,...] [--pgdr PROGRAM] [--limit SECONDS] [--keep FOLDER]
@@ -21,7 +21,7 @@ from pathlib import Path
 
 from measure import ROOT, attempt, table
 
-KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball", "bent")
+KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball", "bent", "strip", "touch", "terrace")
 
 
 def _box(points, facets, half):
@@ -205,6 +205,75 @@ def _bent(rng, points, facets):
             x, y = (r * (corner[c] - points[2 * n][c]) for c in range(2))
             points.append((points[2 * n][0] + x, points[2 * n][1] + y, height - min(0.5 * height, slope * math.hypot(x, y))))
         facets.append([2 * n, 2 * n + 1, 2 * n + 2])
+
+
+def _bar(points, facets, front, back, height):
+    """What a top with these ends, at y = 0 and y = 1, needs to be a block: both ends, two sides and the bottom."""
+    first = len(points)
+    for i in (front[0], back[0], back[-1], front[-1]):
+        points.append((points[i][0], points[i][1], -height))
+    a, b, c, d = range(first, first + 4)
+    facets += [front + [d, a], back + [c, b], [front[0], a, b, back[0]], [front[-1], d, c, back[-1]], [a, b, c, d]]
+
+
+def _strip(rng, points, facets):
+    """A bar with a curved top as programs draw it: strips, each of needles that are fused, though they do not lie quite in one plane."""
+    n, bend, noise = rng.randint(3, 9), rng.uniform(0, 0.4), 10 ** rng.uniform(-10, -6)
+    widths = [10 ** rng.uniform(-2.5, -0.5) for _ in range(n)]
+    at = [sum(widths[:i]) / sum(widths) for i in range(n + 1)]
+    lines = []
+    for i, x in enumerate(at):
+        inner = sorted(rng.uniform(0.02, 0.98) for _ in range(rng.randint(0, 5) if 0 < i < n else 0))
+        lines.append(list(range(len(points), len(points) + len(inner) + 2)))
+        for y in [0, *inner, 1]:
+            off = noise if 0 < y < 1 else 0
+            points.append((x + rng.uniform(-off, off), y, bend * x * (1 - x) + rng.uniform(-off, off)))
+    for left, right in zip(lines, lines[1:]):
+        i = j = 0
+        while i + 1 < len(left) or j + 1 < len(right):
+            is_left = j + 1 == len(right) or (i + 1 < len(left) and points[left[i + 1]][1] < points[right[j + 1]][1])
+            facets.append([left[i], right[j], left[i + 1] if is_left else right[j + 1]])
+            i, j = i + is_left, j + (not is_left)
+    _bar(points, facets, [line[0] for line in lines], [line[-1] for line in lines], rng.uniform(0.05, 1))
+
+
+def _touch(rng, points, facets):
+    """Two to four boxes, each almost on the one below; mostly in a larger one."""
+    z = -0.6
+    for _ in range(rng.randint(2, 4)):
+        first = len(points)
+        (x0, x1), (y0, y1) = (sorted((rng.uniform(-0.8, -0.05), rng.uniform(0.05, 0.8))) for _ in range(2))
+        top, gap = z + rng.uniform(0.05, 0.3), 10 ** rng.uniform(-2.2, -0.7)
+        tilt = rng.uniform(-0.5, 0.5) * gap if rng.random() < 0.5 else 0
+        for i in range(8):
+            x = x1 if i & 1 else x0
+            points.append((x, y1 if i & 2 else y0, top + tilt * x if i & 4 else z))
+        for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+            facets.append([first + i for i in face])
+        z = top + gap
+    if rng.random() < 0.7:
+        _box(points, facets, 2)
+
+
+def _terrace(rng, points, facets):
+    """A block with a top of plateaus, one a little higher than the other, and slopes between them from a degree to upright."""
+    n = rng.randint(1, 5)
+    front, back, z = [len(points)], [len(points) + 1], 0
+    points += [(0, 0, 0), (0, 1, 0)]
+    for i in range(n):
+        step, angle = 10 ** rng.uniform(-3, -1.3) * rng.choice((-1, 1)), _angle(rng, 1, 90)
+        run = min(abs(step) / math.tan(angle), 0.5)
+        x = [i + 1 + rng.uniform(-0.2, 0.2) for _ in range(2)]
+        for up, move in ((0, 0), (step, run)):
+            front.append(len(points))
+            back.append(len(points) + 1)
+            points += [(x[0] + move, 0, z + up), (x[1] + move, 1, z + up)]
+        z += step
+    front.append(len(points))
+    back.append(len(points) + 1)
+    points += [(n + 1, 0, z), (n + 1, 1, z)]
+    facets += [[front[i], back[i], back[i + 1], front[i + 1]] for i in range(len(front) - 1)]
+    _bar(points, facets, front, back, rng.uniform(0.3, 1))
 
 
 def _side(a, b, c, p):

@@ -187,54 +187,11 @@ class Feature_refiner_3 {
 
   /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
   Split_outcome split_subfacet(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
-    const auto& t = complex_.subfacet(slot);
-    Vec_3 m = split_points_.of_subfacet(slot, reason);
-    if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
-    if (reason == Split_reason::encroached && split_points_.is_subfacet_protected(slot)) return Split_outcome::refused;
-    if (!region_.contains(m) || needs_to_be_alone(t.facet, m, length(m - position(t.vertices[0]))))
-      return point_elsewhere(m, complex_.subfacet_id(slot), false);
-    if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
-    if (reason == Split_reason::missing && flip_missing(slot)) return Split_outcome::inserted;
-    Sheet_place at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
-    const auto is_beside = [&] {
-      return at.subsegment != Complex::none && !is_in_the_way(complex_.subsegment(at.subsegment), t, Point(m.x, m.y, m.z));
-    };
-    if (is_beside()) {
-      m = complex_.plane(t.facet).project(point_before(complex_.subsegment(at.subsegment), t, m));
-      at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
-      if (is_beside()) return Split_outcome::refused;
-    }
-    if (at.is_foreign) return point_elsewhere(m, complex_.subfacet_id(slot), false);
-    // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
-    const bool yields = reason != Split_reason::flat;
-    const auto give_way = [&](std::uint32_t s) {
-      last_way_ = complex_.subsegment_id(s);
-      return yields ? split_subsegment(s, reason_for_redirect(reason), guard) : Split_outcome::refused;
-    };
-    if (at.subsegment != Complex::none) return give_way(at.subsegment);
-    if (const Vec_3 q = complex_.on_sheet(at.subfacet, m); region_.contains(q)) m = q;
-    const double radius = complex_.subfacet_radius(slot);
-    if (guard.count == 0 && spacing_.is_too_close(m, t.vertices, reason, guard, radius)) return Split_outcome::refused;
-    const Point p(m.x, m.y, m.z);
-    // One long subsegment may be in the way of thousands of thin subfacets whose points have large cavities.
-    if (yields && last_way_.slot != Complex::none && complex_.is_live_subsegment(last_way_) &&
-        is_encroached(complex_.subsegment(last_way_.slot), p))
-      return give_way(last_way_.slot);
-    if (const auto r = search_.from_subfacet(p, at.subfacet, slot); r != Search_result::found)
-      return blocked(r == Search_result::foreign, m, complex_.subfacet_id(slot), false);
-    features_.gather(complex_, cavity_);
-    for (const auto& f : features_.subsegments())
-      if (f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p))) {
-        cavity_.abandon();
-        return give_way(f.slot);
-      }
-    if (spacing_.is_too_close(cavity_, m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
-    if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
-      return abandon();
-    const Vertex_handle v = insert_on_facet(at.subfacet, p, m, guard);
-    if (v == Vertex_handle()) return blocked(stars_[0].is_foreign(), m, complex_.subfacet_id(slot), false);
-    mirror(v, reason);
-    return Split_outcome::inserted;
+    const Split_outcome outcome = split_subfacet_at(slot, split_points_.of_subfacet(slot, reason), reason, guard);
+    if (reason != Split_reason::missing || outcome != Split_outcome::refused) return outcome;
+    // In a bent facet, the circumcenter of a flat one may be taken already. One that is missing has to be split all the same.
+    const auto [at, subsegment] = split_points_.on_longest_edge(slot);
+    return subsegment != Complex::none ? split_subsegment(subsegment, reason, guard) : split_subfacet_at(slot, at, reason, guard);
   }
 
   /// Tetrahedra made since the last call, some of them gone again. The caller empties it.
@@ -242,7 +199,7 @@ class Feature_refiner_3 {
   /// Whether `fresh_cells` is kept; off until there are subdomains.
   void keep_fresh_cells(bool on) { keep_fresh_ = on; }
 
-  /// Tetrahedra made while a facet was torn, whose subdomain is therefore unknown. The caller empties it.
+  /// Tetrahedra made where a facet was torn, or moved, whose subdomain is therefore unknown. The caller empties it.
   std::vector<Cell_id>& unlabelled_cells() { return unlabelled_cells_; }
 
   /// Queues a piece that the triangulation lacks.
@@ -379,6 +336,56 @@ class Feature_refiner_3 {
         note_missing_subfacet(t);
     }
     return true;
+  }
+
+  Split_outcome split_subfacet_at(std::uint32_t slot, Vec_3 m, Split_reason reason, const Split_guard& guard) {
+    const auto& t = complex_.subfacet(slot);
+    if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
+    if (reason == Split_reason::encroached && split_points_.is_subfacet_protected(slot)) return Split_outcome::refused;
+    if (!region_.contains(m) || needs_to_be_alone(t.facet, m, length(m - position(t.vertices[0]))))
+      return point_elsewhere(m, complex_.subfacet_id(slot), false);
+    if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
+    if (reason == Split_reason::missing && flip_missing(slot)) return Split_outcome::inserted;
+    Sheet_place at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
+    const auto is_beside = [&] {
+      return at.subsegment != Complex::none && !is_in_the_way(complex_.subsegment(at.subsegment), t, Point(m.x, m.y, m.z));
+    };
+    if (is_beside()) {
+      m = complex_.plane(t.facet).project(point_before(complex_.subsegment(at.subsegment), t, m));
+      at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
+      if (is_beside()) return Split_outcome::refused;
+    }
+    if (at.is_foreign) return point_elsewhere(m, complex_.subfacet_id(slot), false);
+    // Shells around a corner make cocircular trapezoids: for their sake alone no further shell is made.
+    const bool yields = reason != Split_reason::flat;
+    const auto give_way = [&](std::uint32_t s) {
+      last_way_ = complex_.subsegment_id(s);
+      return yields ? split_subsegment(s, reason_for_redirect(reason), guard) : Split_outcome::refused;
+    };
+    if (at.subsegment != Complex::none) return give_way(at.subsegment);
+    if (const Vec_3 q = complex_.on_sheet(at.subfacet, m); region_.contains(q)) m = q;
+    const double radius = complex_.subfacet_radius(slot);
+    if (guard.count == 0 && spacing_.is_too_close(m, t.vertices, reason, guard, radius)) return Split_outcome::refused;
+    const Point p(m.x, m.y, m.z);
+    // One long subsegment may be in the way of thousands of thin subfacets whose points have large cavities.
+    if (yields && last_way_.slot != Complex::none && complex_.is_live_subsegment(last_way_) &&
+        is_encroached(complex_.subsegment(last_way_.slot), p))
+      return give_way(last_way_.slot);
+    if (const auto r = search_.from_subfacet(p, at.subfacet, slot); r != Search_result::found)
+      return blocked(r == Search_result::foreign, m, complex_.subfacet_id(slot), false);
+    features_.gather(complex_, cavity_);
+    for (const auto& f : features_.subsegments())
+      if (f.deleted || (yields && is_encroached(complex_.subsegment(f.slot), p))) {
+        cavity_.abandon();
+        return give_way(f.slot);
+      }
+    if (spacing_.is_too_close(cavity_, m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
+    if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
+      return abandon();
+    const Vertex_handle v = insert_on_facet(at.subfacet, p, m, guard);
+    if (v == Vertex_handle()) return blocked(stars_[0].is_foreign(), m, complex_.subfacet_id(slot), false);
+    mirror(v, reason);
+    return Split_outcome::inserted;
   }
 
   bool is_near(const auto& vertices) const {
@@ -522,8 +529,9 @@ class Feature_refiner_3 {
   /// After a point was inserted: replaces the planned stars, marks what is present, queues what is missing or encroached.
   void finish(Vertex_handle v, const std::array<std::uint32_t, 2>& halves, std::uint32_t split) {
     made_.clear();
+    bool has_moved = false;
     for (const auto& star : stars_) {
-      unmark_survivors(complex_, search_.star(), star.removed());
+      has_moved |= unmark_survivors(complex_, search_.star(), star.removed());
       star.apply(complex_, pool_, v, halves, made_);
     }
     images_.note_made(made_);
@@ -546,7 +554,7 @@ class Feature_refiner_3 {
         [this](std::uint32_t t, Vertex_handle w) { note_encroached_subfacet(t, w); });
     for (const Cell_handle c : cavity_.star()) {
       if (keep_fresh_) fresh_cells_.push_back({c, c->generation(), 0});
-      if (keep_fresh_ && torn_) unlabelled_cells_.push_back({c, c->generation(), 0});
+      if (keep_fresh_ && (torn_ || has_moved)) unlabelled_cells_.push_back({c, c->generation(), 0});
     }
   }
 

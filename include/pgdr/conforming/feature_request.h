@@ -2,6 +2,7 @@
 #ifndef PGDR_CONFORMING_FEATURE_REQUEST_H
 #define PGDR_CONFORMING_FEATURE_REQUEST_H
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/feature_id.h>
 #include <pgdr/conforming/fifo.h>
 #include <pgdr/domain/vec_3.h>
@@ -41,10 +43,16 @@ struct Split_guard {
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
   double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex inherits
   bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
+  bool is_strict = false;               ///< the floor holds everywhere
 
   /// Whether the client is given up as soon as one piece in its way refuses: with an edge as short as a small angle makes it, unless
   /// that is much shorter than what is around.
   bool gives_up_at_once() const { return is_at_wedge || floor_apart > 0; }
+  /// Whether one of the points is next to a small angle.
+  bool is_near(const Acute_neighborhood_3& acute) const {
+    return std::any_of(where.begin(), where.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const Vec_3& p) { return acute.contains(p, reach); });
+  }
 };
 
 /// The point and the piece at which a split was `elsewhere`.

@@ -107,15 +107,20 @@ void mark_subfacets(Constraint_complex_3<Tr>& complex, typename Tr::Vertex_handl
   }
 }
 
-/// Takes the marks off removed subfacets that the insertion left in the triangulation (rounding only).
+/// Takes the marks off removed subfacets that the insertion left in the triangulation (rounding only). True if there are any: what lies
+/// between one and the subfacets that replace it has changed sides.
 template <class Tr>
-void unmark_survivors(Constraint_complex_3<Tr>& complex, Vertex_star_3<Tr>& star, const std::vector<std::uint32_t>& removed) {
+bool unmark_survivors(Constraint_complex_3<Tr>& complex, Vertex_star_3<Tr>& star, const std::vector<std::uint32_t>& removed) {
+  bool is_any = false;
   for (const std::uint32_t slot : removed) {
     auto& t = complex.subfacet(slot);
     if (!t.present || t.scratch) continue;
     const auto c = star.find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
-    if (c != typename Tr::Cell_handle()) mark_facet<Tr>(c, index_of_fourth<Tr>(c, t.vertices), Constraint_complex_3<Tr>::none);
+    if (c == typename Tr::Cell_handle()) continue;
+    mark_facet<Tr>(c, index_of_fourth<Tr>(c, t.vertices), Constraint_complex_3<Tr>::none);
+    is_any = true;
   }
+  return is_any;
 }
 
 }  // namespace pgdr

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include <pgdr/conforming/acute_neighborhood_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
@@ -42,6 +43,21 @@ class Split_points_3 {
       m = 0.8 * m + (0.2 / 3) * (position(t.vertices[0]) + position(t.vertices[1]) + position(t.vertices[2]));
     if (const Index v = ball_around(slot, m); v != Protected_balls_3::none) m = acute_.balls().on_sphere(v, m);
     return complex_.plane(t.facet).project(m);
+  }
+
+  /// The midpoint of the longest edge of a subfacet, on its facet's plane, and the subsegment that this edge is, or none.
+  std::pair<Vec_3, std::uint32_t> on_longest_edge(std::uint32_t slot) const {
+    const auto& t = complex_.subfacet(slot);
+    const auto squared_length = [&](std::size_t i) {
+      return squared_distance(position(t.vertices[(i + 1) % 3]), position(t.vertices[(i + 2) % 3]));
+    };
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (squared_length(i) > squared_length(longest)) longest = i;
+    const Vec_3 m = 0.5 * (position(t.vertices[(longest + 1) % 3]) + position(t.vertices[(longest + 2) % 3]));
+    const std::uint32_t n = t.neighbors[longest];
+    const bool is_subsegment = n != Constraint_complex_3<Tr>::none && (n & Constraint_complex_3<Tr>::subsegment_bit);
+    return {complex_.plane(t.facet).project(m), is_subsegment ? n & ~Constraint_complex_3<Tr>::subsegment_bit : Constraint_complex_3<Tr>::none};
   }
 
   /// Whether all of a subsegment lies in the protected ball of one of its ends: it is not split.

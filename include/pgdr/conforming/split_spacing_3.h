@@ -73,9 +73,9 @@ class Split_spacing_3 {
   }
 
   bool is_near_angle(const Vec_3& m, const Split_guard& guard, double radius) const {
+    if (guard.is_strict) return true;
     if (guard.count == 0) return acute_.contains(m, std::max(guard.reach, 4 * radius));
-    return std::any_of(guard.where.begin(), guard.where.begin() + static_cast<std::ptrdiff_t>(guard.count),
-                       [&](const Vec_3& p) { return acute_.contains(p, guard.reach); });
+    return guard.is_near(acute_);
   }
 
   /// Whether a piece has none of the vertices in which the features of the guard's edge meet.

@@ -25,6 +25,7 @@
 #include <pgdr/refinement/outside_cells_3.h>
 #include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
+#include <pgdr/refinement/separating_subfacet_3.h>
 #include <pgdr/refinement/split_guard_3.h>
 #include <pgdr/refinement/tetrahedron_ball.h>
 
@@ -126,7 +127,7 @@ class Delaunay_leaf_refiner_3 {
       }
       if (!features.is_idle()) {
         if (const Cell_id id = steep_before_feature(w, list); id.cell != Cell_handle())
-          refine(w, id, {}, list, result);
+          refine(w, id, {}, true, list, result);
         else
           features.step();
         continue;
@@ -149,12 +150,12 @@ class Delaunay_leaf_refiner_3 {
       if (result.inserted + features.inserted() - on_features >= task.pause_after && !list.has_steep()) break;
       if (!list.retries_.empty()) {
         const auto errand = list.retries_.pop();
-        if (errand->cell.is_live()) refine(w, errand->cell, std::move(errand->refused), list, result);
+        if (errand->cell.is_live()) refine(w, errand->cell, std::move(errand->refused), errand->guard.is_strict, list, result);
         continue;
       }
       if (!list.has_active()) break;
       const Cell_id id = list.pop_active();
-      if (id.is_live()) refine(w, id, {}, list, result);
+      if (id.is_live()) refine(w, id, {}, true, list, result);
     }
     result.inserted += features.inserted() - on_features;
     close(w, list);
@@ -215,7 +216,7 @@ class Delaunay_leaf_refiner_3 {
 
   /// Deferred elements that are above the target become active.
   void activate(Worklist& list, double target, double outside_target) const {
-    const auto sift = [](std::vector<Cell_id>& from, double above, Fifo<Cell_id>& to) {
+    const auto sift = [](std::vector<Cell_id>& from, double above, Radius_queue<Cell_id>& to) {
       std::size_t kept = 0;
       for (const Cell_id& id : from) {
         if (!id.is_live()) continue;
@@ -461,13 +462,14 @@ class Delaunay_leaf_refiner_3 {
     Tetrahedron_ball ball;
     Vec_3 at;
     std::vector<Piece_id> refused;  ///< what is in the way, and may not be split for its sake
+    bool is_strict = true;          ///< nothing in the way was split below the floor yet
 
     Point point() const { return Point(at.x, at.y, at.z); }
     bool is_outside() const { return id.cell->subdomain() == 0; }
   };
 
-  Attempt attempt(const Cell_id& id, std::vector<Piece_id> refused) const {
-    Attempt t{id, tetrahedron_points(id.cell), {}, {}, std::move(refused)};
+  Attempt attempt(const Cell_id& id, std::vector<Piece_id> refused, bool is_strict) const {
+    Attempt t{id, tetrahedron_points(id.cell), {}, {}, std::move(refused), is_strict};
     t.ball = tetrahedron_ball(t.corners);
     t.at = steiner_point(t.is_outside(), t.ball, t.corners);
     return t;
@@ -493,10 +495,10 @@ class Delaunay_leaf_refiner_3 {
   }
 
   /// Inserts the Steiner point of a tetrahedron, or splits what is in the way.
-  void refine(Worker& w, const Cell_id& id, std::vector<Piece_id> refused, Worklist& list, Drain_result& result) {
+  void refine(Worker& w, const Cell_id& id, std::vector<Piece_id> refused, bool is_strict, Worklist& list, Drain_result& result) {
     const bool is_skipped = id.cell->subdomain() == 0 && w.task_.outside_target == std::numeric_limits<double>::infinity();
     if (is_skipped) return;
-    Attempt t = attempt(id, std::move(refused));
+    Attempt t = attempt(id, std::move(refused), is_strict);
     if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
     if (t.is_outside()) return refine_outside(w, t, list, result);
     if (w.task_.territory != 0 && is_steep(t.ball)) return hand_on(t, list);
@@ -530,6 +532,13 @@ class Delaunay_leaf_refiner_3 {
       cavity.is_foreign() ? hand_on(t, list) : give_up(t, list, result);
       return Trial::done;
     };
+    // What lies behind a facet need not be searched at all.
+    const Separation between = first_subfacet_towards(tr_, cavity.territory(), c, t.point());
+    if (between.is_foreign) return hand_on(t, list), Trial::done;
+    if (between.subfacet != Complex::none) {
+      w.obstacles_.set_subfacet(complex_, between.subfacet);
+      return make_room(w, t, list, result) ? Trial::done : Trial::no_room;
+    }
     // Cavities can be large, and what is in the way is close, mostly, so that most of the search can be spared.
     std::size_t looks = 0;
     std::uint32_t in_the_way = Complex::none;
@@ -737,8 +746,17 @@ class Delaunay_leaf_refiner_3 {
   /// given up at the first refusal (`Split_guard::gives_up_at_once`): there is no room then, whatever becomes of the others. Trying
   /// the others all the same pays where an edge is so short that hardly anything may be split for its sake. False if no obstacle is left.
   bool make_room(Worker& w, Attempt& t, Worklist& list, Drain_result& result) const {
+    Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
+    guard.is_strict = t.is_strict;
+    if (splits_obstacle(w, t, guard, list, result)) return true;
+    if (!t.is_strict || guard.is_near(acute_)) return false;
+    t.is_strict = guard.is_strict = false;
+    t.refused.clear();
+    return splits_obstacle(w, t, guard, list, result);
+  }
+
+  bool splits_obstacle(Worker& w, Attempt& t, const Split_guard& guard, Worklist& list, Drain_result& result) const {
     Features& features = w.features_;
-    const Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
     const bool outside = t.is_outside(), segments = w.obstacles_.are_subsegments();
     for (const Piece_id& piece : w.obstacles_.to_split()) {
       const bool is_known = std::ranges::find(t.refused, piece) != t.refused.end();

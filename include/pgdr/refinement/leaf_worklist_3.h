@@ -12,6 +12,7 @@
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/fifo.h>
 #include <pgdr/domain/vec_3.h>
+#include <pgdr/refinement/radius_queue.h>
 
 namespace pgdr {
 
@@ -83,9 +84,10 @@ class Leaf_worklist_3 {
   template <class Found>
   void sample_active(std::size_t most, const Found& found) const {
     const std::size_t step = 1 + (active_.size() + active_outside_.size()) / most;
-    for (const Fifo<Cell_id>* queue : {&active_, &active_outside_})
-      for (std::size_t k = 0; k < queue->size(); k += step)
-        if ((*queue)[k].is_live()) found((*queue)[k]);
+    for (const Radius_queue<Cell_id>* queue : {&active_, &active_outside_})
+      queue->sample(step, [&](const Cell_id& id) {
+        if (id.is_live()) found(id);
+      });
   }
 
   std::vector<Parcel>& outgoing() { return outgoing_; }
@@ -169,8 +171,6 @@ class Leaf_worklist_3 {
   }
 
   void release_memory() {
-    active_.release_if_empty();
-    active_outside_.release_if_empty();
     errands_.release_if_empty();
     retries_.release_if_empty();
     queues_.subsegments.release_if_empty();
@@ -186,8 +186,8 @@ class Leaf_worklist_3 {
       steep_.pop_back();
       return id;
     }
-    Fifo<Cell_id>& queue = active_.empty() ? active_outside_ : active_;
-    prefetch(queue);
+    Radius_queue<Cell_id>& queue = active_.empty() ? active_outside_ : active_;
+    prefetch(queue.next());
     return queue.pop();
   }
   bool has_active() const { return has_steep() || !active_.empty() || !active_outside_.empty(); }
@@ -227,8 +227,8 @@ class Leaf_worklist_3 {
 
   std::vector<Steep> steep_;  ///< a heap of those that are far larger than their shortest edge
   std::size_t steep_count_ = 0;
-  Fifo<Cell_id> active_;
-  Fifo<Cell_id> active_outside_;  ///< when nothing else is left: these yield to every feature
+  Radius_queue<Cell_id> active_;
+  Radius_queue<Cell_id> active_outside_;  ///< when nothing else is left: these yield to every feature
   std::vector<Cell_id> deferred_;
   std::vector<Cell_id> outside_;  ///< deferred tetrahedra outside the domain
   Fifo<std::unique_ptr<Errand>> errands_;
