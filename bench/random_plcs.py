@@ -219,11 +219,12 @@ def _bar(points, facets, front, back, height):
 def _strip(rng, points, facets):
     """A bar with a curved top as programs draw it: strips, each of needles that are fused, though they do not lie quite in one plane."""
     n, bend, noise = rng.randint(3, 9), rng.uniform(0, 0.4), 10 ** rng.uniform(-10, -6)
-    widths = [10 ** rng.uniform(-2.5, -0.5) for _ in range(n)]
+    widths = [10 ** rng.uniform(-3.5, -0.5) for _ in range(n)]
     at = [sum(widths[:i]) / sum(widths) for i in range(n + 1)]
     lines = []
     for i, x in enumerate(at):
-        inner = sorted(rng.uniform(0.02, 0.98) for _ in range(rng.randint(0, 5) if 0 < i < n else 0))
+        inner = [rng.uniform(0.1, 0.8) for _ in range(rng.randint(0, 5) if 0 < i < n else 0)]
+        inner = sorted(inner + [y + 10 ** rng.uniform(-4.5, -1) for y in inner if rng.random() < 0.4])
         lines.append(list(range(len(points), len(points) + len(inner) + 2)))
         for y in [0, *inner, 1]:
             off = noise if 0 < y < 1 else 0

@@ -14,8 +14,9 @@ using pgdr::Plc;
 
 namespace {
 
-/// Meshes a model, checks everything, and returns the arrays; nothing where the model is absent.
-std::optional<pgdr::Indexed_mesh_3> checked(const char* name, std::size_t exempt) {
+/// Meshes a model, checks everything, and returns the arrays; nothing where the model is absent. Facets that are not quite plane have no area
+/// of their own to compare with: there the checker's distances have to do.
+std::optional<pgdr::Indexed_mesh_3> checked(const char* name, std::size_t exempt, bool is_plane = true) {
   const auto path = input_model(name);
   if (!path) return std::nullopt;
   CAPTURE(name);
@@ -24,7 +25,7 @@ std::optional<pgdr::Indexed_mesh_3> checked(const char* name, std::size_t exempt
   parameters.max_vertices = 2000000;
   const Mesh mesh = refined(pgdr::read_plc(*path), std::numeric_limits<double>::infinity(), parameters);
   CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
-  CHECK(inconsistency(mesh.triangulation(), mesh.complex()) == "");
+  if (is_plane) CHECK(inconsistency(mesh.triangulation(), mesh.complex()) == "");
   auto indexed = pgdr::indexed_mesh_3(mesh);
   CHECK(failures(pgdr::check_mesh(indexed, &mesh.domain())) == "");
   // No more than a well-known program leaves.
@@ -55,6 +56,13 @@ TEST_CASE("Long strips around cylinders are meshed", "[models]") {
 
 TEST_CASE("A knot is meshed", "[models]") {
   if (!checked("a11_knot2.off", 9644)) PGDR_SKIP("the real models are not here");
+}
+
+// In facets that were fused and are not quite plane, a piece changed sides without its tetrahedra being labelled anew (17), and one that was
+// missing was given up since its circumcenter was taken (37).
+TEST_CASE("Intersecting cones have every tetrahedron on its side of the surface", "[models]") {
+  const auto a = checked("../cad/thingics_cones17.off", 8000, false), b = checked("../cad/thingics_cones37.off", 8000, false);
+  if (!a || !b) PGDR_SKIP("the real models are not here");
 }
 
 TEST_CASE("A bunny is meshed", "[models]") {
