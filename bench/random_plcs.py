@@ -24,12 +24,17 @@ from measure import ROOT, attempt, table
 KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball", "bent", "strip", "touch", "terrace")
 
 
+def _box_faces(facets, first):
+    """Those of a box whose corner i, from `first` on, is at the upper end of axis k if bit k of i is set."""
+    for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+        facets.append([first + i for i in face])
+
+
 def _box(points, facets, half):
     first = len(points)
     for i in range(8):
         points.append(tuple(half * (1 if i >> k & 1 else -1) for k in range(3)))
-    for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
-        facets.append([first + i for i in face])
+    _box_faces(facets, first)
 
 
 def _angle(rng, low, high):
@@ -249,8 +254,7 @@ def _touch(rng, points, facets):
         for i in range(8):
             x = x1 if i & 1 else x0
             points.append((x, y1 if i & 2 else y0, top + tilt * x if i & 4 else z))
-        for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
-            facets.append([first + i for i in face])
+        _box_faces(facets, first)
         z = top + gap
     if rng.random() < 0.7:
         _box(points, facets, 2)

@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/feature_id.h>
 #include <pgdr/conforming/fifo.h>
 #include <pgdr/domain/vec_3.h>
@@ -32,7 +32,7 @@ enum class Split_outcome : std::uint8_t {
   elsewhere  ///< nothing was inserted: the point lies in another leaf
 };
 
-/// The shortest edge that a split may make next to small input angles. Away from these there is no such limit, since
+/// The shortest edge that a split may make next to small input angles. Away from these there is no such limit, unless it is strict, since
 /// the theory promises one; next to them it is what keeps the refinement from going on for ever.
 struct Split_guard {
   double floor = 0;                     ///< no new edge below this

@@ -56,8 +56,7 @@ class Split_points_3 {
       if (squared_length(i) > squared_length(longest)) longest = i;
     const Vec_3 m = 0.5 * (position(t.vertices[(longest + 1) % 3]) + position(t.vertices[(longest + 2) % 3]));
     const std::uint32_t n = t.neighbors[longest];
-    const bool is_subsegment = n != Constraint_complex_3<Tr>::none && (n & Constraint_complex_3<Tr>::subsegment_bit);
-    return {complex_.plane(t.facet).project(m), is_subsegment ? n & ~Constraint_complex_3<Tr>::subsegment_bit : Constraint_complex_3<Tr>::none};
+    return {complex_.plane(t.facet).project(m), n & Complex::subsegment_bit ? n & ~Complex::subsegment_bit : Complex::none};
   }
 
   /// Whether all of a subsegment lies in the protected ball of one of its ends: it is not split.

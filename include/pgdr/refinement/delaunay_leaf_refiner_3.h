@@ -127,7 +127,7 @@ class Delaunay_leaf_refiner_3 {
       }
       if (!features.is_idle()) {
         if (const Cell_id id = steep_before_feature(w, list); id.cell != Cell_handle())
-          refine(w, id, {}, true, list, result);
+          refine(w, id, {}, list, result);
         else
           features.step();
         continue;
@@ -150,12 +150,12 @@ class Delaunay_leaf_refiner_3 {
       if (result.inserted + features.inserted() - on_features >= task.pause_after && !list.has_steep()) break;
       if (!list.retries_.empty()) {
         const auto errand = list.retries_.pop();
-        if (errand->cell.is_live()) refine(w, errand->cell, std::move(errand->refused), errand->guard.is_strict, list, result);
+        if (errand->cell.is_live()) refine(w, errand->cell, {std::move(errand->refused), errand->guard.is_strict}, list, result);
         continue;
       }
       if (!list.has_active()) break;
       const Cell_id id = list.pop_active();
-      if (id.is_live()) refine(w, id, {}, true, list, result);
+      if (id.is_live()) refine(w, id, {}, list, result);
     }
     result.inserted += features.inserted() - on_features;
     close(w, list);
@@ -455,21 +455,26 @@ class Delaunay_leaf_refiner_3 {
     return list.pop_steep(much_larger * radius);
   }
 
+  /// What came of the attempts before to make room for a tetrahedron.
+  struct Tried {
+    std::vector<Piece_id> refused;  ///< what is in the way, and may not be split for its sake
+    bool is_strict = true;          ///< with the floor everywhere
+  };
+
   /// A tetrahedron that is looked at, and its Steiner point.
   struct Attempt {
     Cell_id id;
     Tetrahedron_points corners;
     Tetrahedron_ball ball;
     Vec_3 at;
-    std::vector<Piece_id> refused;  ///< what is in the way, and may not be split for its sake
-    bool is_strict = true;          ///< nothing in the way was split below the floor yet
+    Tried tried;
 
     Point point() const { return Point(at.x, at.y, at.z); }
     bool is_outside() const { return id.cell->subdomain() == 0; }
   };
 
-  Attempt attempt(const Cell_id& id, std::vector<Piece_id> refused, bool is_strict) const {
-    Attempt t{id, tetrahedron_points(id.cell), {}, {}, std::move(refused), is_strict};
+  Attempt attempt(const Cell_id& id, Tried tried) const {
+    Attempt t{id, tetrahedron_points(id.cell), {}, {}, std::move(tried)};
     t.ball = tetrahedron_ball(t.corners);
     t.at = steiner_point(t.is_outside(), t.ball, t.corners);
     return t;
@@ -495,10 +500,10 @@ class Delaunay_leaf_refiner_3 {
   }
 
   /// Inserts the Steiner point of a tetrahedron, or splits what is in the way.
-  void refine(Worker& w, const Cell_id& id, std::vector<Piece_id> refused, bool is_strict, Worklist& list, Drain_result& result) {
+  void refine(Worker& w, const Cell_id& id, Tried tried, Worklist& list, Drain_result& result) {
     const bool is_skipped = id.cell->subdomain() == 0 && w.task_.outside_target == std::numeric_limits<double>::infinity();
     if (is_skipped) return;
-    Attempt t = attempt(id, std::move(refused), is_strict);
+    Attempt t = attempt(id, std::move(tried));
     if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
     if (t.is_outside()) return refine_outside(w, t, list, result);
     if (w.task_.territory != 0 && is_steep(t.ball)) return hand_on(t, list);
@@ -534,7 +539,10 @@ class Delaunay_leaf_refiner_3 {
     };
     // What lies behind a facet need not be searched at all.
     const Separation between = first_subfacet_towards(tr_, cavity.territory(), c, t.point());
-    if (between.is_foreign) return hand_on(t, list), Trial::done;
+    if (between.is_foreign) {
+      hand_on(t, list);
+      return Trial::done;
+    }
     if (between.subfacet != Complex::none) {
       w.obstacles_.set_subfacet(complex_, between.subfacet);
       return make_room(w, t, list, result) ? Trial::done : Trial::no_room;
@@ -741,25 +749,27 @@ class Delaunay_leaf_refiner_3 {
     return w.features_.cavity().squared_insertion_radius(p) < least * least;
   }
 
+  /// Splits an obstacle for a tetrahedron's sake: with the floor of its guard everywhere if one lets itself be split like that, else,
+  /// away from small angles, without. False if no obstacle is left.
+  bool make_room(Worker& w, Attempt& t, Worklist& list, Drain_result& result) const {
+    Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
+    guard.is_strict = t.tried.is_strict;
+    if (splits_obstacle(w, t, guard, list, result)) return true;
+    if (!t.tried.is_strict || guard.is_near(acute_)) return false;
+    t.tried.is_strict = guard.is_strict = false;
+    t.tried.refused.clear();
+    return splits_obstacle(w, t, guard, list, result);
+  }
+
   /// Splits the first obstacle that lets itself be split, but for those that are known not to; the tetrahedron has another try
   /// if it is still there. An obstacle whose split point lies elsewhere takes the tetrahedron along. Some are
   /// given up at the first refusal (`Split_guard::gives_up_at_once`): there is no room then, whatever becomes of the others. Trying
   /// the others all the same pays where an edge is so short that hardly anything may be split for its sake. False if no obstacle is left.
-  bool make_room(Worker& w, Attempt& t, Worklist& list, Drain_result& result) const {
-    Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
-    guard.is_strict = t.is_strict;
-    if (splits_obstacle(w, t, guard, list, result)) return true;
-    if (!t.is_strict || guard.is_near(acute_)) return false;
-    t.is_strict = guard.is_strict = false;
-    t.refused.clear();
-    return splits_obstacle(w, t, guard, list, result);
-  }
-
   bool splits_obstacle(Worker& w, Attempt& t, const Split_guard& guard, Worklist& list, Drain_result& result) const {
     Features& features = w.features_;
     const bool outside = t.is_outside(), segments = w.obstacles_.are_subsegments();
     for (const Piece_id& piece : w.obstacles_.to_split()) {
-      const bool is_known = std::ranges::find(t.refused, piece) != t.refused.end();
+      const bool is_known = std::ranges::find(t.tried.refused, piece) != t.tried.refused.end();
       const Split_outcome outcome = is_known   ? Split_outcome::refused
                                     : segments ? features.split_subsegment(piece.slot, Split_reason::encroached, guard)
                                                : features.split_subfacet(piece.slot, Split_reason::encroached, guard);
@@ -775,7 +785,7 @@ class Delaunay_leaf_refiner_3 {
         give_up(t, list, result);
         return true;
       }
-      if (!is_known) t.refused.push_back(piece);
+      if (!is_known) t.tried.refused.push_back(piece);
       if (is_steep(t.ball)) break;
     }
     return false;
@@ -791,7 +801,7 @@ class Delaunay_leaf_refiner_3 {
     errand->cell = t.id;
     errand->home = t.at;
     errand->obstacle = obstacle;
-    errand->refused = std::move(t.refused);
+    errand->refused = std::move(t.tried.refused);
     return errand;
   }
 

@@ -16,8 +16,8 @@ namespace pgdr {
 ///
 /// Where features are sampled before the volume between them, two of n points each have n² tetrahedra between them, and whatever is
 /// inserted there has to look at them all. The center of a large one removes most of them (the idea of B. Hudson, G. Miller,
-/// T. Phillips, *Sparse Voronoi refinement*, 2006). Within a factor of 2 first in, first out, so that the work goes through memory as it did
-/// before.
+/// T. Phillips, *Sparse Voronoi refinement*, 2006). Within a factor of 2 the order in which they came takes the work
+/// through memory step by step.
 template <class Item>
 class Radius_queue {
  public:
