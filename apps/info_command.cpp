@@ -103,6 +103,9 @@ int run_info(const Info_arguments& arguments) {
   const Input input = read_input(arguments.input, arguments.domain);
   if (!input.simplification.is_none())
     print_line("simplified", simplification_text(input.simplification) + "; --tolerance 0 keeps them");
+  if (!input.planarization.is_none())
+    print_line("made plane", counted(input.planarization.flattened_facets, "facet", "facets") + ": " +
+                                 planarization_text(input.planarization) + "; --tolerance 0 keeps them");
   with_problem_file(arguments.problems, input.plc, [&] {
     const Domain domain = understand(input.plc, arguments.domain);
     const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(arguments.problems));

@@ -167,6 +167,7 @@ int run_mesh(const Mesh_arguments& arguments) {
     const Input input = read_input(arguments.input, arguments.domain);
     const Plc& plc = input.plc;
     run.simplification = input.simplification;
+    run.planarization = input.planarization;
     timer.end_phase("reading");
     progress.show("checking the input");
     with_problem_file(arguments.problems, plc, [&] {

@@ -77,7 +77,7 @@ bool can_be_meshed(const Plc& plc, const Domain_options& options) {
 }  // namespace
 
 Input read_input(const std::filesystem::path& path, const Domain_options& options) {
-  Input input{read_plc(path), {}};
+  Input input{read_plc(path), {}, {}};
   Plc& plc = input.plc;
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
   for (const std::string& text : options.holes) {
@@ -88,9 +88,16 @@ Input read_input(const std::filesystem::path& path, const Domain_options& option
   for (const std::string& text : options.regions) regions.push_back(parse_region(text));
   plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
 
+  const double tolerance = simplification(path, options).in_units(bounding_diagonal(plc));
+  if (tolerance <= 0) return input;
   Simplification done;
-  Plc simplified = simplify(plc, simplification(path, options).in_units(bounding_diagonal(plc)), &done);
-  if (!done.is_none() && can_be_meshed(simplified, options)) input = {std::move(simplified), done};
+  Plc simplified = simplify(plc, tolerance, &done);
+  if (!done.is_none() && can_be_meshed(simplified, options)) input = {std::move(simplified), done, {}};
+  try {
+    input.plc = planarize(input.plc, options.fusing_tolerance(), options.triangulate, &input.planarization);
+  } catch (const Input_error&) {
+    // Said again, and with the file of problems, when the input is understood.
+  }
   return input;
 }
 

@@ -14,6 +14,7 @@
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
 #include <pgdr/io/write_problems.h>
+#include <pgdr/simplify/planarize.h>
 #include <pgdr/simplify/simplify.h>
 
 namespace pgdr::app {
@@ -43,10 +44,11 @@ struct Domain_options {
 struct Input {
   Plc plc;  ///< with the seeds of the options
   Simplification simplification;
+  Planarization planarization;
 };
 
-/// Reads `path`, and simplifies it as far as the options say; not at all if the result could not be meshed, so that what is wrong is
-/// said of what is in the file. Throws `Input_error`.
+/// Reads `path`, simplifies it as far as the options say, and makes its fused facets plane; not at all if the result could not be meshed,
+/// so that what is wrong is said of what is in the file. Throws `Input_error`.
 Input read_input(const std::filesystem::path& path, const Domain_options& options);
 
 /// Understands what was read. Throws `Input_error` for what cannot be understood at all.

@@ -61,7 +61,13 @@ std::string stats_json(const Run_summary& run) {
       exempt_angles.push_back({{"degrees", a.degrees}, {"between", a.between}, {"tetrahedra", a.tetrahedra}});
 
   const Simplification& simplification = run.simplification;
-  const Json json = {{"simplification",
+  const Planarization& planarization = run.planarization;
+  const Json json = {{"planarization",
+                      {{"flattened_facets", planarization.flattened_facets},
+                       {"bent_facets", planarization.bent_facets},
+                       {"moved_vertices", planarization.moved_vertices},
+                       {"largest_change", planarization.largest_change}}},
+                     {"simplification",
                       {{"collapsed_edges", simplification.collapsed_edges},
                        {"removed_needles", simplification.removed_needles},
                        {"largest_change", simplification.largest_change}}},

@@ -15,6 +15,7 @@
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/report/format.h>
 #include <pgdr/report/run_statistics.h>
+#include <pgdr/simplify/planarize.h>
 #include <pgdr/simplify/simplify.h>
 
 namespace pgdr {
@@ -22,6 +23,7 @@ namespace pgdr {
 /// Everything that is said about a run when it is over.
 struct Run_summary {
   Simplification simplification;
+  Planarization planarization;
   Mesh_quality quality;
   std::size_t exempt_tetrahedra = 0;
   std::vector<Exempt_angle> exempt_angles;
@@ -73,6 +75,13 @@ inline std::string simplification_text(const Simplification& s) {
          " taken away, a change of at most " + significant(s.largest_change, 3);
 }
 
+/// What was moved.
+inline std::string planarization_text(const Planarization& p) {
+  std::string text = counted(p.moved_vertices, "vertex", "vertices") + " moved by at most " + significant(p.largest_change, 3);
+  if (p.bent_facets > 0) text += "; " + counted(p.bent_facets, "facet stays bent", "facets stay bent");
+  return text;
+}
+
 /// Writes the summary for people: one property a line.
 inline void print_summary(std::ostream& out, const Run_summary& run) {
   const Mesh_quality& quality = run.quality;
@@ -83,6 +92,8 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
   };
   if (!run.simplification.is_none())
     line("simplified", with_separators(run.simplification.facets), "facets: " + simplification_text(run.simplification));
+  if (!run.planarization.is_none())
+    line("made plane", with_separators(run.planarization.flattened_facets), "facets: " + planarization_text(run.planarization));
   line("vertices", with_separators(quality.vertices),
        with_separators(run.steiner_points) + " of them Steiner points");
   line("tetrahedra", with_separators(quality.tetrahedra),

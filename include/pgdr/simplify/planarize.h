@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SIMPLIFY_PLANARIZE_H
+#define PGDR_SIMPLIFY_PLANARIZE_H
+
+#include <cstddef>
+
+#include <pgdr/domain/default_kernel.h>
+
+namespace pgdr {
+
+/// What `planarize` did.
+struct Planarization {
+  std::size_t flattened_facets = 0;  ///< fused facets that were bent and are plane now
+  std::size_t bent_facets = 0;       ///< that stay bent: their vertices would have to move too far
+  std::size_t moved_vertices = 0;
+  double largest_change = 0;  ///< of a vertex, off the plane of a facet that it is on
+
+  bool is_none() const { return moved_vertices == 0; }
+};
+
+/// Moves vertices so that fused facets are plane to double precision.
+///
+/// A facet of a PLC is plane: that is what the theory of refinement is about. Facets that `make_domain_3` fused are bent by as much as its
+/// tolerance, in files of single precision nearly all. Where features are as close to each other as that, a bent facet is none: its
+/// triangles cannot all be in one Delaunay triangulation.
+///
+/// The move is the smallest one, in the sense of least squares, that makes the facets plane: Newton's method on the vertices and the planes
+/// together. A polyhedron has enough freedom for that in general (more than its number of edges: Euler's formula). Facets on axis-aligned
+/// planes stay there. A facet whose vertices would have to leave the planes they are on by more than the tolerance stays as it is, and so
+/// does one that would intersect another.
+/// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the PLC. The tolerance is the limit, too; along their facets
+///   vertices may move up to 16 times as far, which is what facets at small angles to each other need.
+/// \return `plc` itself where nothing was to be done. Throws what `make_domain_3` throws
+Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate = false, Planarization* done = nullptr);
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/simplify/planarize.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <pgdr/domain/input_error.h>
+#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/plc_from_domain_3.h>
+#include <pgdr/domain/validate_domain_3.h>
+
+#include "plane_system.h"
+
+namespace pgdr {
+
+namespace {
+
+using Domain = Domain_3<Default_kernel>;
+
+/// In units of the bounding box's diagonal: a facet that is bent by less is as plane as the points that refinement puts on it.
+constexpr double bent = 1e-13;
+/// What a solution may leave; above that the facet has none.
+constexpr double unsolved = 1e-10;
+/// Of the tolerance: what makes a facet plane may not bring its vertices as close to each other as that.
+constexpr double lowest = 1.0 / 64;
+/// How much farther vertices may move along their facets than away from them.
+constexpr double sideways = 16;
+/// Of the facets whose vertices move too far, those that move at least a quarter as far as the farthest are given up first: mostly the
+/// others are only their neighbors. After this many rounds, all of them.
+constexpr int careful_rounds = 8;
+/// How often facets that would intersect others are given up.
+constexpr int most_rounds = 8;
+
+class Planarizer {
+ public:
+  explicit Planarizer(const Domain& domain) : domain_(domain), is_on_(domain.facets.size(), false) {
+    for (const auto& p : domain.vertices) points_.push_back(to_vec(p));
+    for (Index f = 0; f < domain.facets.size(); ++f) {
+      facets_.push_back(domain.facets[f].vertices);
+      for (const Index i : domain.facets[f].input_facets) {
+        if (i >= facet_of_input_.size()) facet_of_input_.resize(i + 1);
+        facet_of_input_[i] = f;
+      }
+    }
+    choose_facets();
+  }
+
+  const std::vector<Vec_3>& points() const { return points_; }
+
+  /// Where the points should be.
+  std::vector<Vec_3> solution() {
+    const Plane_system system(facets_, fixed_, bent * domain_.diagonal);
+    for (int round = 0;; ++round) {
+      fix_axes();
+      std::vector<Vec_3> points = start_;
+      system.solve(points, is_on_);
+      if (!give_up_what_is_far(points, round < careful_rounds)) return points;
+    }
+  }
+
+  /// For the next solution, nothing is asked of the facets that these input facets are part of; the second time, of those around them neither.
+  void give_up(const std::vector<Index>& input_facets) {
+    std::vector<bool> is_concerned(facets_.size(), false), is_near(points_.size(), false);
+    for (const Index i : input_facets) is_concerned[facet_of_input_[i]] = true;
+    for (Index f = 0; f < facets_.size(); ++f) {
+      if (!is_concerned[f]) continue;
+      if (!is_on_[f])
+        for (const Index v : facets_[f]) is_near[v] = true;
+      is_on_[f] = false;
+    }
+    for (Index f = 0; f < facets_.size(); ++f)
+      if (std::any_of(facets_[f].begin(), facets_[f].end(), [&](Index v) { return is_near[v]; })) is_on_[f] = false;
+  }
+
+  Planarization report(const std::vector<Vec_3>& points) const {
+    Planarization done;
+    for (const auto& facet : facets_) {
+      const bool is_bent = Plane_system::bend(facet, points) > bent * domain_.diagonal;
+      const bool was_bent = Plane_system::bend(facet, points_) > bent * domain_.diagonal;
+      done.bent_facets += is_bent;
+      done.flattened_facets += was_bent && !is_bent;
+    }
+    for (std::size_t v = 0; v < points.size(); ++v) done.moved_vertices += squared_distance(points[v], points_[v]) > 0;
+    for (const auto& f : domain_.facets)
+      for (const Index v : f.vertices) done.largest_change = std::max(done.largest_change, off_plane(f, v, points));
+    return done;
+  }
+
+ private:
+  /// Those that hang together with one that is bent: no other can change.
+  void choose_facets() {
+    std::vector<std::vector<Index>> facets_of(points_.size());
+    std::vector<Index> next;
+    const auto choose = [&](Index f) {
+      if (!is_on_[f]) next.push_back(f);
+      is_on_[f] = true;
+    };
+    for (Index f = 0; f < facets_.size(); ++f) {
+      if (facets_[f].size() < 4) continue;
+      for (const Index v : facets_[f]) facets_of[v].push_back(f);
+      if (Plane_system::bend(facets_[f], points_) > bent * domain_.diagonal) choose(f);
+    }
+    while (!next.empty()) {
+      const Index f = next.back();
+      next.pop_back();
+      for (const Index v : facets_[f])
+        for (const Index g : facets_of[v]) choose(g);
+    }
+  }
+
+  /// Vertices of facets whose plane is axis-aligned go there first, and stay.
+  void fix_axes() {
+    start_ = points_;
+    fixed_.assign(points_.size(), {});
+    for (Index i = 0; i < facets_.size(); ++i) {
+      if (!is_on_[i]) continue;
+      const auto& facet = domain_.facets[i];
+      for (int d = 0; d < 3; ++d) {
+        if (std::abs(facet.normal[d]) != 1) continue;
+        const double level = facet.origin[d];
+        const bool is_free = std::all_of(facet.vertices.begin(), facet.vertices.end(),
+                                         [&](Index v) { return !fixed_[v][d] || start_[v][d] == level; });
+        if (!is_free) continue;
+        for (const Index v : facet.vertices) {
+          fixed_[v][d] = true;
+          start_[v][d] = level;
+        }
+      }
+    }
+  }
+
+  double off_plane(const Domain::Facet& facet, Index v, const std::vector<Vec_3>& points) const {
+    return std::abs(dot(to_vec(facet.normal), points[v] - points_[v]));
+  }
+
+  /// How far the vertices have moved, in units of what they may.
+  std::vector<double> moves(const std::vector<Vec_3>& points) const {
+    std::vector<double> result(points.size());
+    for (Index v = 0; v < points.size(); ++v) result[v] = length(points[v] - points_[v]) / (sideways * domain_.tolerance);
+    for (const auto& f : domain_.facets)
+      for (const Index v : f.vertices) result[v] = std::max(result[v], off_plane(f, v, points) / domain_.tolerance);
+    return result;
+  }
+
+  /// \return whether there is something to give up.
+  bool give_up_what_is_far(const std::vector<Vec_3>& points, bool is_careful) {
+    const std::vector<double> moved = moves(points);
+    const double farthest = *std::max_element(moved.begin(), moved.end());
+    const double too_far = is_careful ? std::max(1.0, farthest / 4) : 1.0;
+    bool some = false;
+    for (Index f = 0; f < facets_.size(); ++f) {
+      if (!is_on_[f]) continue;
+      const bool is_far = std::any_of(facets_[f].begin(), facets_[f].end(), [&](Index v) { return moved[v] > too_far; });
+      if (!is_far && Plane_system::bend(facets_[f], points) <= unsolved * domain_.diagonal) continue;
+      is_on_[f] = false;
+      some = true;
+    }
+    return some;
+  }
+
+  const Domain& domain_;
+  std::vector<Vec_3> points_;  ///< as they are in the domain
+  std::vector<Vec_3> start_;
+  std::vector<std::vector<Index>> facets_;
+  std::vector<Index> facet_of_input_;
+  std::vector<Plane_system::Fixed_axes> fixed_;
+  std::vector<bool> is_on_;
+};
+
+/// `plc`, with the points that are at `from` at `to`.
+Plc moved(const Plc& plc, const std::vector<Vec_3>& from, const std::vector<Vec_3>& to) {
+  using Coordinates = std::array<double, 3>;
+  const auto coordinates = [](const Vec_3& p) { return Coordinates{p.x, p.y, p.z}; };
+  std::map<Coordinates, Coordinates> place;
+  for (std::size_t v = 0; v < from.size(); ++v) place.emplace(coordinates(from[v]), coordinates(to[v]));
+  Plc result = plc;
+  for (auto& p : result.vertices) {
+    const auto found = place.find(coordinates(to_vec(p)));
+    if (found != place.end()) p = {found->second[0], found->second[1], found->second[2]};
+  }
+  return result;
+}
+
+/// `plc`, which `domain` was made from, without some of the domain's vertices inside its facets: those facets become polygons.
+Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goes) {
+  if (std::none_of(goes.begin(), goes.end(), [](bool g) { return g; })) return plc;
+  std::vector<Vec_3> points;
+  for (const auto& p : domain.vertices) points.push_back(to_vec(p));
+  std::vector<bool> facet_goes(plc.facets.size(), false);
+  std::vector<Plc_facet<Default_kernel>> new_facets;
+  for (std::size_t f = 0; f < domain.facets.size(); ++f) {
+    const auto& facet = domain.facets[f];
+    if (std::none_of(facet.vertices.begin(), facet.vertices.end(), [&](Index v) { return goes[v]; })) continue;
+    for (const Index i : facet.input_facets) facet_goes[i] = true;
+    new_facets.push_back(domain_detail::facet_polygons(domain, f, points));
+    std::erase_if(new_facets.back().polygons, [&](const auto& polygon) { return polygon.size() == 1 && goes[polygon[0]]; });
+    for (auto& polygon : new_facets.back().polygons)
+      for (Index& v : polygon) v = domain.input_vertex[v];
+  }
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < facet_goes.size(); ++i)
+    if (!facet_goes[i]) std::swap(plc.facets[left++], plc.facets[i]);
+  plc.facets.resize(left);
+  plc.facets.insert(plc.facets.end(), new_facets.begin(), new_facets.end());
+
+  std::vector<bool> vertex_goes(plc.vertices.size(), false);
+  for (std::size_t v = 0; v < goes.size(); ++v)
+    if (goes[v]) vertex_goes[domain.input_vertex[v]] = true;
+  std::vector<Index> number(plc.vertices.size());
+  left = 0;
+  for (std::size_t v = 0; v < plc.vertices.size(); ++v) {
+    number[v] = static_cast<Index>(left);
+    if (vertex_goes[v]) continue;
+    if (!plc.vertex_markers.empty()) plc.vertex_markers[left] = plc.vertex_markers[v];
+    plc.vertices[left++] = plc.vertices[v];
+  }
+  plc.vertices.resize(left);
+  if (!plc.vertex_markers.empty()) plc.vertex_markers.resize(left);
+  for (auto& facet : plc.facets)
+    for (auto& polygon : facet.polygons)
+      for (Index& v : polygon) v = number[v];
+  for (Plc_segment& s : plc.segments) {
+    s.source = number[s.source];
+    s.target = number[s.target];
+  }
+  return plc;
+}
+
+/// What has come too close to the rest of its facet.
+struct Low_corners {
+  std::vector<bool> inside;    ///< vertices that no segment ends at: they may go
+  std::vector<Index> facets;  ///< input facets of those with others, ascending
+};
+
+/// Triangles of plane facets that are lower than `height`: there a needle stood upright on its facet, and has fallen over.
+Low_corners low_corners(const Domain& domain, double height) {
+  Low_corners low{std::vector<bool>(domain.vertices.size(), true), {}};
+  for (const auto& s : domain.segments)
+    for (const Index v : s.vertices) low.inside[v] = false;
+  for (Index v = 0; v < domain.vertex_markers.size(); ++v)
+    if (domain.vertex_markers[v] != 0) low.inside[v] = false;
+  std::vector<bool> is_low(domain.vertices.size(), false);
+  for (const auto& f : domain.facets) {
+    if (f.vertices.size() < 4) continue;
+    for (const auto& t : f.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const Vec_3 p = to_vec(domain.vertices[t[i]]);
+        const Vec_3 a = to_vec(domain.vertices[t[(i + 1) % 3]]), b = to_vec(domain.vertices[t[(i + 2) % 3]]);
+        if (squared_distance_to_line(p, a, b) >= height * height) continue;
+        is_low[t[i]] = true;
+        if (dot(p - a, b - a) > 0 && dot(p - b, a - b) > 0 && !low.inside[t[i]])
+          low.facets.insert(low.facets.end(), f.input_facets.begin(), f.input_facets.end());
+      }
+  }
+  for (std::size_t v = 0; v < is_low.size(); ++v)
+    if (!is_low[v]) low.inside[v] = false;
+  domain_detail::sort_unique(low.facets);
+  return low;
+}
+
+}  // namespace
+
+Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done) {
+  const Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+  Planarizer planarizer(domain);
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<Vec_3> points = planarizer.solution();
+    const Planarization report = planarizer.report(points);
+    if (report.is_none()) break;
+    Plc result = moved(plc, planarizer.points(), points);
+    std::vector<Index> concerned;
+    try {
+      const Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
+      const Low_corners low = low_corners(plane, lowest * plane.tolerance);
+      concerned = low.facets;
+      for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
+        concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
+      if (concerned.empty()) {
+        if (done) *done = report;
+        return without_vertices(std::move(result), plane, low.inside);
+      }
+    } catch (const Input_error& error) {
+      for (const Input_problem& problem : error.problems())
+        concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
+      if (concerned.empty()) break;
+    }
+    planarizer.give_up(concerned);
+  }
+  return plc;
+}
+
+}  // namespace pgdr

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/simplify/planarize.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/domain/vec_3.h>
+
+#include "catch.h"
+#include "domain/shapes.h"
+
+using namespace pgdr;
+using namespace pgdr_test;
+
+namespace {
+
+constexpr double tolerance = 1e-6;  // of the diagonal
+constexpr double rounding = 1e-13;
+
+/// As a file of single precision has it.
+Plc in_single_precision(Plc plc) {
+  for (auto& p : plc.vertices) p = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+  return plc;
+}
+
+std::size_t facets_within(const Plc& plc, double distance) { return make_domain_3(plc, distance).facets.size(); }
+
+double farthest_move(const Plc& a, const Plc& b) {
+  double farthest = 0;
+  for (std::size_t v = 0; v < a.vertices.size(); ++v)
+    farthest = std::max(farthest, length(to_vec(a.vertices[v]) - to_vec(b.vertices[v])));
+  return farthest;
+}
+
+bool meets_nowhere(const Plc& plc) { return validate_domain_3(make_domain_3(plc)).empty(); }
+
+}  // namespace
+
+TEST_CASE("plane facets stay as they are") {
+  for (const Plc& plc : {triangulated(box()), triangulated(tilted(box())), triangulated(tilted(cylinder(20)))}) {
+    Planarization done;
+    const Plc same = planarize(plc, tolerance, false, &done);
+    CHECK(done.is_none());
+    CHECK(same.vertices == plc.vertices);
+  }
+}
+
+TEST_CASE("facets of a file in single precision become plane, by moves of that size") {
+  const Plc rounded = in_single_precision(triangulated(tilted(cylinder(20))));
+  REQUIRE(facets_within(rounded, tolerance) == 22);
+  REQUIRE(facets_within(rounded, rounding) > 22);
+  Planarization done;
+  const Plc plc = planarize(rounded, tolerance, false, &done);
+  CHECK(facets_within(plc, rounding) == 22);
+  CHECK(meets_nowhere(plc));
+  CHECK(done.flattened_facets > 0);
+  CHECK(done.flattened_facets <= 22);
+  CHECK(done.bent_facets == 0);
+  CHECK(done.moved_vertices > 20);
+  CHECK(done.largest_change > 1e-9);
+  CHECK(done.largest_change <= farthest_move(rounded, plc));
+  CHECK(farthest_move(rounded, plc) < 3e-7);  // a few ulps of numbers up to 2
+}
+
+TEST_CASE("what is in an axis-aligned plane stays there") {
+  Plc slanted = cylinder(20);
+  for (auto& p : slanted.vertices)
+    if (p.z() == 1) p = {0.7 * p.x() + 0.1, 0.7 * p.y(), 1};
+  const Plc rounded = in_single_precision(triangulated(slanted));
+  Planarization done;
+  const Plc plc = planarize(rounded, tolerance, false, &done);
+  REQUIRE(!done.is_none());
+  CHECK(facets_within(plc, rounding) == 22);
+  std::set<double> heights;
+  for (const auto& p : plc.vertices) heights.insert(p.z());
+  CHECK(heights == std::set<double>{0, 1});
+}
+
+TEST_CASE("vertices move as far as the tolerance and no farther") {
+  // A cube with two pyramids, 4e-7 and 1e-9 of an edge high, on two of its faces: each apex can move into its face alone.
+  Plc plc = triangulated(box());
+  const auto raise = [&](double height, bool is_top) {
+    const double z = is_top ? 1 : 0;
+    std::erase_if(plc.facets, [&](const Facet& f) {
+      return std::ranges::all_of(f.polygons[0], [&](Index v) { return plc.vertices[v].z() == z; });
+    });
+    const Index apex = static_cast<Index>(plc.vertices.size());
+    plc.vertices.emplace_back(0.5, 0.5, z + (is_top ? height : -height));
+    const Index base = is_top ? 4 : 0;
+    for (const auto& [a, b] : {std::pair<Index, Index>{0, 1}, {1, 3}, {3, 2}, {2, 0}}) plc.facets.push_back({{{base + a, base + b, apex}}, {}, 0});
+  };
+  raise(4e-7, true);
+  raise(1e-9, false);
+  REQUIRE(facets_within(plc, tolerance) == 6);
+  Planarization done;
+  const Plc flat = planarize(plc, tolerance, false, &done);
+  CHECK(facets_within(flat, rounding) == 6);
+  CHECK(done.largest_change <= tolerance * std::sqrt(3.0));
+  CHECK(done.bent_facets == 0);
+  CHECK(meets_nowhere(flat));
+
+  // With less tolerance than the pyramid is high, it is a pyramid.
+  const Plc still = planarize(plc, 1e-7, false, &done);
+  CHECK(facets_within(still, 1e-7) == 9);
+  CHECK(still.vertices[8] == plc.vertices[8]);
+  CHECK(still.vertices[9].z() == Approx(0).margin(rounding));
+}
+
+TEST_CASE("a needle that stood upright does not fall onto the edge it stands on") {
+  // A vertex at the edge of a cube's top, 12 billionths inside: in the plane it would be nearly on the edge.
+  for (const double height : {5e-9, 1.8e-8}) {  // the needle is part of the top, or of the side
+    Plc plc = triangulated(box());
+    std::erase_if(plc.facets, [&](const Facet& f) {
+      return std::ranges::all_of(f.polygons[0], [&](Index v) { return plc.vertices[v].z() == 1; });
+    });
+    plc.vertices.emplace_back(0.5, 1.2e-8, 1 + height);
+    for (const std::vector<Index>& t : {std::vector<Index>{4, 5, 8}, {5, 7, 8}, {7, 6, 8}, {6, 4, 8}}) plc.facets.push_back({{t}, {}, 0});
+    REQUIRE(meets_nowhere(plc));
+    REQUIRE(facets_within(plc, tolerance) == 6);
+    const Plc flat = planarize(plc, tolerance);
+    CHECK(meets_nowhere(flat));
+    CHECK(flat.vertices.size() == 8);
+    CHECK(facets_within(flat, rounding) == 6);
+  }
+}
