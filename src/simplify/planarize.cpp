@@ -30,16 +30,21 @@ constexpr double unsolved = 1e-10;
 constexpr double lowest = 1.0 / 64;
 /// How much farther vertices may move along their facets than away from them.
 constexpr double sideways = 16;
-/// Of the facets whose vertices move too far, those that move at least a quarter as far as the farthest are given up first: mostly the
-/// others are only their neighbors. After this many rounds, all of them.
-constexpr int careful_rounds = 8;
+/// Where vertices move too far, one facet of each that moves at least half as far as the farthest is given up: mostly the others are only its
+/// neighbors. After this many rounds, all of them.
+constexpr int careful_rounds = 16;
+/// How often triangles are fused: others may lie within the tolerance of one plane once their vertices have moved. Not until there are none,
+/// since a smooth surface would become ever larger facets.
+constexpr int fusings = 2;
 /// How often facets that would intersect others are given up.
 constexpr int most_rounds = 8;
 
 class Planarizer {
  public:
-  explicit Planarizer(const Domain& domain) : domain_(domain), is_on_(domain.facets.size(), false) {
+  /// \param input where the vertices have been before anything was moved: what limits count from there
+  Planarizer(const Domain& domain, const Plc& input) : domain_(domain), is_on_(domain.facets.size(), false) {
     for (const auto& p : domain.vertices) points_.push_back(to_vec(p));
+    for (const Index v : domain.input_vertex) input_.push_back(to_vec(input.vertices[v]));
     for (Index f = 0; f < domain.facets.size(); ++f) {
       facets_.push_back(domain.facets[f].vertices);
       for (const Index i : domain.facets[f].input_facets) {
@@ -81,11 +86,11 @@ class Planarizer {
     Planarization done;
     for (const auto& facet : facets_) {
       const bool is_bent = Plane_system::bend(facet, points) > bent * domain_.diagonal;
-      const bool was_bent = Plane_system::bend(facet, points_) > bent * domain_.diagonal;
+      const bool was_bent = Plane_system::bend(facet, input_) > bent * domain_.diagonal;
       done.bent_facets += is_bent;
       done.flattened_facets += was_bent && !is_bent;
     }
-    for (std::size_t v = 0; v < points.size(); ++v) done.moved_vertices += squared_distance(points[v], points_[v]) > 0;
+    for (std::size_t v = 0; v < points.size(); ++v) done.moved_vertices += squared_distance(points[v], input_[v]) > 0;
     for (const auto& f : domain_.facets)
       for (const Index v : f.vertices) done.largest_change = std::max(done.largest_change, off_plane(f, v, points));
     return done;
@@ -135,13 +140,13 @@ class Planarizer {
   }
 
   double off_plane(const Domain::Facet& facet, Index v, const std::vector<Vec_3>& points) const {
-    return std::abs(dot(to_vec(facet.normal), points[v] - points_[v]));
+    return std::abs(dot(to_vec(facet.normal), points[v] - input_[v]));
   }
 
   /// How far the vertices have moved, in units of what they may.
   std::vector<double> moves(const std::vector<Vec_3>& points) const {
     std::vector<double> result(points.size());
-    for (Index v = 0; v < points.size(); ++v) result[v] = length(points[v] - points_[v]) / (sideways * domain_.tolerance);
+    for (Index v = 0; v < points.size(); ++v) result[v] = length(points[v] - input_[v]) / (sideways * domain_.tolerance);
     for (const auto& f : domain_.facets)
       for (const Index v : f.vertices) result[v] = std::max(result[v], off_plane(f, v, points) / domain_.tolerance);
     return result;
@@ -150,12 +155,18 @@ class Planarizer {
   /// \return whether there is something to give up.
   bool give_up_what_is_far(const std::vector<Vec_3>& points, bool is_careful) {
     const std::vector<double> moved = moves(points);
-    const double farthest = *std::max_element(moved.begin(), moved.end());
-    const double too_far = is_careful ? std::max(1.0, farthest / 4) : 1.0;
+    const double too_far = std::max(1.0, is_careful ? *std::max_element(moved.begin(), moved.end()) / 2 : 0.0);
+    // Of the facets at a vertex, the one that needs the fewest triangles if it is not fused.
+    std::vector<Index> smallest(points.size(), static_cast<Index>(facets_.size()));
+    for (Index f = 0; f < facets_.size(); ++f)
+      if (is_on_[f])
+        for (const Index v : facets_[f])
+          if (smallest[v] == facets_.size() || facets_[f].size() < facets_[smallest[v]].size()) smallest[v] = f;
     bool some = false;
     for (Index f = 0; f < facets_.size(); ++f) {
       if (!is_on_[f]) continue;
-      const bool is_far = std::any_of(facets_[f].begin(), facets_[f].end(), [&](Index v) { return moved[v] > too_far; });
+      const bool is_far = std::any_of(facets_[f].begin(), facets_[f].end(),
+                                      [&](Index v) { return moved[v] > too_far && (!is_careful || smallest[v] == f); });
       if (!is_far && Plane_system::bend(facets_[f], points) <= unsolved * domain_.diagonal) continue;
       is_on_[f] = false;
       some = true;
@@ -165,6 +176,7 @@ class Planarizer {
 
   const Domain& domain_;
   std::vector<Vec_3> points_;  ///< as they are in the domain
+  std::vector<Vec_3> input_;   ///< as they were before
   std::vector<Vec_3> start_;
   std::vector<std::vector<Index>> facets_;
   std::vector<Index> facet_of_input_;
@@ -231,32 +243,34 @@ Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goe
   return plc;
 }
 
-/// What has come too close to the rest of its facet.
+/// What is too close to the rest of its facet.
 struct Low_corners {
-  std::vector<bool> inside;    ///< vertices that no segment ends at: they may go
+  std::vector<bool> inside;    ///< vertices that no segment ends at: no feature, they may go
   std::vector<Index> facets;  ///< input facets of those with others, ascending
 };
 
-/// Triangles of plane facets that are lower than `height`: there a needle stood upright on its facet, and has fallen over.
-Low_corners low_corners(const Domain& domain, double height) {
+/// Corners of triangles that are lower than `height`; those that segments end at only if they have been twice as high in the input: there a
+/// needle stood upright on its facet, and has fallen over.
+Low_corners low_corners(const Domain& domain, const Plc& input, double height) {
   Low_corners low{std::vector<bool>(domain.vertices.size(), true), {}};
   for (const auto& s : domain.segments)
     for (const Index v : s.vertices) low.inside[v] = false;
   for (Index v = 0; v < domain.vertex_markers.size(); ++v)
     if (domain.vertex_markers[v] != 0) low.inside[v] = false;
   std::vector<bool> is_low(domain.vertices.size(), false);
-  for (const auto& f : domain.facets) {
-    if (f.vertices.size() < 4) continue;
+  const auto now = [&](Index v) { return to_vec(domain.vertices[v]); };
+  const auto before = [&](Index v) { return to_vec(input.vertices[domain.input_vertex[v]]); };
+  for (const auto& f : domain.facets)
     for (const auto& t : f.triangles)
       for (int i = 0; i < 3; ++i) {
-        const Vec_3 p = to_vec(domain.vertices[t[i]]);
-        const Vec_3 a = to_vec(domain.vertices[t[(i + 1) % 3]]), b = to_vec(domain.vertices[t[(i + 2) % 3]]);
-        if (squared_distance_to_line(p, a, b) >= height * height) continue;
-        is_low[t[i]] = true;
-        if (dot(p - a, b - a) > 0 && dot(p - b, a - b) > 0 && !low.inside[t[i]])
+        const Index p = t[i], a = t[(i + 1) % 3], b = t[(i + 2) % 3];
+        const double squared_height = squared_distance_to_line(now(p), now(a), now(b));
+        if (squared_height >= height * height) continue;
+        is_low[p] = true;
+        const bool is_above_edge = dot(now(p) - now(a), now(b) - now(a)) > 0 && dot(now(p) - now(b), now(a) - now(b)) > 0;
+        if (is_above_edge && !low.inside[p] && squared_height < squared_distance_to_line(before(p), before(a), before(b)) / 4)
           low.facets.insert(low.facets.end(), f.input_facets.begin(), f.input_facets.end());
       }
-  }
   for (std::size_t v = 0; v < is_low.size(); ++v)
     if (!is_low[v]) low.inside[v] = false;
   domain_detail::sort_unique(low.facets);
@@ -266,32 +280,40 @@ Low_corners low_corners(const Domain& domain, double height) {
 }  // namespace
 
 Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done) {
-  const Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
-  Planarizer planarizer(domain);
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<Vec_3> points = planarizer.solution();
-    const Planarization report = planarizer.report(points);
-    if (report.is_none()) break;
-    Plc result = moved(plc, planarizer.points(), points);
-    std::vector<Index> concerned;
-    try {
-      const Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
-      const Low_corners low = low_corners(plane, lowest * plane.tolerance);
-      concerned = low.facets;
-      for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
-        concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
-      if (concerned.empty()) {
-        if (done) *done = report;
-        return without_vertices(std::move(result), plane, low.inside);
+  Plc best = plc;
+  Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+  // Other triangles may lie within the tolerance of one plane once their vertices have moved.
+  for (int fusing = 0; fusing < fusings; ++fusing) {
+    Planarizer planarizer(domain, plc);
+    for (int round = 0; round < most_rounds; ++round) {
+      const std::vector<Vec_3> points = planarizer.solution();
+      const Planarization report = planarizer.report(points);
+      if (report.is_none()) return best;
+      Plc result = moved(best, planarizer.points(), points);
+      std::vector<Index> concerned;
+      try {
+        Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
+        const Low_corners low = low_corners(plane, plc, lowest * plane.tolerance);
+        concerned = low.facets;
+        for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
+          concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
+        if (concerned.empty()) {
+          if (done) *done = report;
+          if (std::any_of(low.inside.begin(), low.inside.end(), [](bool b) { return b; }))
+            return without_vertices(std::move(result), plane, low.inside);
+          best = std::move(result);
+          domain = std::move(plane);
+          break;
+        }
+      } catch (const Input_error& error) {
+        for (const Input_problem& problem : error.problems())
+          concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
+        if (concerned.empty()) return best;
       }
-    } catch (const Input_error& error) {
-      for (const Input_problem& problem : error.problems())
-        concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
-      if (concerned.empty()) break;
+      planarizer.give_up(concerned);
     }
-    planarizer.give_up(concerned);
   }
-  return plc;
+  return best;
 }
 
 }  // namespace pgdr
