@@ -2,10 +2,8 @@
 #include <pgdr/simplify/planarize.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -15,6 +13,7 @@
 #include <pgdr/domain/validate_domain_3.h>
 
 #include "plane_system.h"
+#include "remove_vertices.h"
 
 namespace pgdr {
 
@@ -55,7 +54,11 @@ class Planarizer {
     choose_facets();
   }
 
-  const std::vector<Vec_3>& points() const { return points_; }
+  /// Whether these are where the vertices of the domain are.
+  bool is_at(const std::vector<Vec_3>& points) const {
+    return std::equal(points.begin(), points.end(), points_.begin(),
+                      [](const Vec_3& a, const Vec_3& b) { return squared_distance(a, b) == 0; });
+  }
 
   /// Where the points should be.
   std::vector<Vec_3> solution() {
@@ -184,23 +187,20 @@ class Planarizer {
   std::vector<bool> is_on_;
 };
 
-/// `plc`, with the points that are at `from` at `to`.
-Plc moved(const Plc& plc, const std::vector<Vec_3>& from, const std::vector<Vec_3>& to) {
-  using Coordinates = std::array<double, 3>;
-  const auto coordinates = [](const Vec_3& p) { return Coordinates{p.x, p.y, p.z}; };
-  std::map<Coordinates, Coordinates> place;
-  for (std::size_t v = 0; v < from.size(); ++v) place.emplace(coordinates(from[v]), coordinates(to[v]));
+/// `plc`, which `domain` was made from, with the domain's vertices at `points`.
+Plc moved(const Plc& plc, const Domain& domain, const std::vector<Vec_3>& points) {
+  std::vector<Vec_3> before;
+  for (const auto& p : plc.vertices) before.push_back(to_vec(p));
+  const std::vector<Index> first = domain_detail::first_equal_vertex(before, std::vector<char>(before.size(), 0));
   Plc result = plc;
-  for (auto& p : result.vertices) {
-    const auto found = place.find(coordinates(to_vec(p)));
-    if (found != place.end()) p = {found->second[0], found->second[1], found->second[2]};
-  }
+  for (std::size_t v = 0; v < points.size(); ++v)
+    result.vertices[domain.input_vertex[v]] = {points[v].x, points[v].y, points[v].z};
+  for (std::size_t v = 0; v < first.size(); ++v) result.vertices[v] = result.vertices[first[v]];
   return result;
 }
 
 /// `plc`, which `domain` was made from, without some of the domain's vertices inside its facets: those facets become polygons.
 Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goes) {
-  if (std::none_of(goes.begin(), goes.end(), [](bool g) { return g; })) return plc;
   std::vector<Vec_3> points;
   for (const auto& p : domain.vertices) points.push_back(to_vec(p));
   std::vector<bool> facet_goes(plc.facets.size(), false);
@@ -223,23 +223,7 @@ Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goe
   std::vector<bool> vertex_goes(plc.vertices.size(), false);
   for (std::size_t v = 0; v < goes.size(); ++v)
     if (goes[v]) vertex_goes[domain.input_vertex[v]] = true;
-  std::vector<Index> number(plc.vertices.size());
-  left = 0;
-  for (std::size_t v = 0; v < plc.vertices.size(); ++v) {
-    number[v] = static_cast<Index>(left);
-    if (vertex_goes[v]) continue;
-    if (!plc.vertex_markers.empty()) plc.vertex_markers[left] = plc.vertex_markers[v];
-    plc.vertices[left++] = plc.vertices[v];
-  }
-  plc.vertices.resize(left);
-  if (!plc.vertex_markers.empty()) plc.vertex_markers.resize(left);
-  for (auto& facet : plc.facets)
-    for (auto& polygon : facet.polygons)
-      for (Index& v : polygon) v = number[v];
-  for (Plc_segment& s : plc.segments) {
-    s.source = number[s.source];
-    s.target = number[s.target];
-  }
+  simplify_detail::remove_vertices(plc, vertex_goes);
   return plc;
 }
 
@@ -285,11 +269,14 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
   // Other triangles may lie within the tolerance of one plane once their vertices have moved.
   for (int fusing = 0; fusing < fusings; ++fusing) {
     Planarizer planarizer(domain, plc);
-    for (int round = 0; round < most_rounds; ++round) {
+    int round = 0;
+    for (; round < most_rounds; ++round) {
       const std::vector<Vec_3> points = planarizer.solution();
-      const Planarization report = planarizer.report(points);
-      if (report.is_none()) return best;
-      Plc result = moved(best, planarizer.points(), points);
+      if (planarizer.is_at(points)) {
+        if (const Planarization report = planarizer.report(points); done && !report.is_none()) *done = report;
+        return best;
+      }
+      Plc result = moved(best, domain, points);
       std::vector<Index> concerned;
       try {
         Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
@@ -298,7 +285,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
         for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
           concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
         if (concerned.empty()) {
-          if (done) *done = report;
+          if (done) *done = planarizer.report(points);
           if (std::any_of(low.inside.begin(), low.inside.end(), [](bool b) { return b; }))
             return without_vertices(std::move(result), plane, low.inside);
           best = std::move(result);
@@ -312,6 +299,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
       }
       planarizer.give_up(concerned);
     }
+    if (round == most_rounds) return best;
   }
   return best;
 }

@@ -77,11 +77,11 @@ double Plane_system::newton_step(std::vector<Vec_3>& points, const std::vector<I
     Vec_3 normal;  ///< without the axes along which the vertex may not move
   };
   std::vector<Use> uses;
-  std::vector<double> right;
   std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
   std::size_t rows = 0;
   for (const Index f : facets) rows += facets_[f].size();
   const Index unknowns = static_cast<Index>(rows + 3 * facets.size());
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
 
   double error = 0;
   for (std::size_t k = 0; k < facets.size(); ++k) {
@@ -91,8 +91,8 @@ double Plane_system::newton_step(std::vector<Vec_3>& points, const std::vector<I
     const Index plane = static_cast<Index>(rows + 3 * k);
     for (Index d = 0; d < 3; ++d) entries.emplace_back(plane + d, plane + d, -plane_weight);
     for (std::size_t i = 0; i < facet.size(); ++i) {
-      const Index row = static_cast<Index>(right.size());
-      right.push_back(-frame.positions(i, 2));
+      const Index row = static_cast<Index>(uses.size());
+      right[row] = -frame.positions(i, 2);
       entries.emplace_back(row, row, damping);
       entries.emplace_back(plane, row, 1);
       for (Index d = 0; d < 2; ++d) entries.emplace_back(plane + 1 + d, row, frame.positions(i, d));
@@ -111,11 +111,9 @@ double Plane_system::newton_step(std::vector<Vec_3>& points, const std::vector<I
 
   Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(unknowns);
-  for (std::size_t r = 0; r < rows; ++r) b[r] = right[r];
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> decomposition(matrix);
   if (decomposition.info() != Eigen::Success) return 0;
-  const Eigen::VectorXd multipliers = decomposition.solve(b);
+  const Eigen::VectorXd multipliers = decomposition.solve(right);
   for (const Use& use : uses) points[use.vertex] = points[use.vertex] + multipliers[use.row] * use.normal;
   return error;
 }

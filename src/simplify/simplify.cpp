@@ -15,6 +15,7 @@
 
 #include <pgdr/domain/make_domain_3.h>
 
+#include "remove_vertices.h"
 #include "triangle_complex.h"
 
 namespace pgdr {
@@ -323,15 +324,8 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
   for (const auto& t : complex.triangles())
     if (t.alive)
       for (const Index v : t.corners) is_left[v] = true;
-  std::vector<Index> number(plc.vertices.size(), 0);
-  result.vertices.clear();
-  result.vertex_markers.clear();
-  for (Index v = 0; v < plc.vertices.size(); ++v) {
-    number[v] = static_cast<Index>(result.vertices.size());
-    if (first[v] != v || (is_used[v] && !is_left[v] && !fixed.vertices[v])) continue;
-    result.vertices.push_back(plc.vertices[v]);
-    if (v < plc.vertex_markers.size()) result.vertex_markers.push_back(plc.vertex_markers[v]);
-  }
+  std::vector<bool> goes(plc.vertices.size());
+  for (Index v = 0; v < plc.vertices.size(); ++v) goes[v] = first[v] != v || (is_used[v] && !is_left[v] && !fixed.vertices[v]);
   result.facets.clear();
   std::vector<std::vector<Corners>> of_facet(plc.facets.size());
   for (const auto& t : complex.triangles())
@@ -340,19 +334,20 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
     if (!is_triangle[f]) {
       result.facets.push_back(plc.facets[f]);
       for (auto& polygon : result.facets.back().polygons)
-        for (Index& v : polygon) v = number[first[v]];
+        for (Index& v : polygon) v = first[v];
     }
     for (const Corners& c : of_facet[f]) {
       Plc_facet<Default_kernel> facet;
-      facet.polygons = {{number[c[0]], number[c[1]], number[c[2]]}};
+      facet.polygons = {{c[0], c[1], c[2]}};
       facet.marker = plc.facets[f].marker;
       result.facets.push_back(std::move(facet));
     }
   }
   for (Plc_segment& s : result.segments) {
-    s.source = number[first[s.source]];
-    s.target = number[first[s.target]];
+    s.source = first[s.source];
+    s.target = first[s.target];
   }
+  remove_vertices(result, goes);
   report.facets = result.facets.size();
   return result;
 }

@@ -22,7 +22,8 @@ struct Simplification {
 /// vertex moves; some are gone in the end, and some edges go through vertices that were next to them.
 ///
 /// The boundary changes by at most `tolerance` (two-sided Hausdorff distance, bounded by a map of the input onto the result). It keeps its
-/// topology and gets no intersections: a step that would break that, decided by exact predicates, is not done. Only triangles change; polygons with more corners, explicit segments, and the vertices of either stay.
+/// topology and gets no intersections: a step that would break that, decided by exact predicates, is not done. Only triangles change;
+/// polygons with more corners, explicit segments, and the vertices of either stay.
 /// \param tolerance a length; 0 or less: nothing is changed
 /// \return `plc` itself where nothing was to be done
 Plc simplify(const Plc& plc, double tolerance, Simplification* done = nullptr);
