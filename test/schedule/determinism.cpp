@@ -36,7 +36,7 @@ pgdr::Parameters many_leaves() {
 
 // Surfaces have so much outside that their work is divided among territories.
 void joint() { model("a03_joint.off", 0.02, {}, 20, 4); }
-void knot() { model("a11_knot2.off", 0.007, {}, 25, 4); }
+void knot() { model("a11_knot2.off", 0.007, {}, 20, 4); }
 void airplane() { model("a19_airplane_in_box.poly", 0.9, many_leaves()); }
 
 }  // namespace

@@ -236,21 +236,19 @@ class Feature_refiner_3 {
     }
   }
 
-  /// Handles one missing piece, if one is queued; other requests go to the end of their queue. \pre not idle.
-  bool step_missing() {
-    for (const bool segment : {true, false}) {
-      auto& queue = segment ? queues_.subsegments : queues_.subfacets;
-      for (std::size_t n = queue.size(); n > 0; --n) {
-        const Feature_request r = queue.pop();
-        if (r.reason != Split_reason::missing) {
-          queue.push(r);
-          continue;
-        }
+  /// Recovers what is missing, subsegments before subfacets, while other requests wait.
+  void recover_missing() {
+    Feature_queues others;
+    while (!is_idle() && !is_cancelled()) {
+      const bool segment = has_subsegments();
+      const Feature_request r = segment ? queues_.subsegments.pop() : queues_.subfacets.pop();
+      if (r.reason == Split_reason::missing)
         split(r, segment);
-        return true;
-      }
+      else
+        (segment ? others.subsegments : others.subfacets).push(r);
     }
-    return false;
+    others.take_all(queues_);
+    std::swap(queues_, others);
   }
 
   /// Does an errand that arrived here; appends what goes on from here to `outgoing`. True if the client, a

@@ -195,8 +195,8 @@ class Delaunay_leaf_refiner_3 {
     close(w, list);
     const std::size_t n = territory_count(list.active(), halvings);
     if (n == 0) return division;
-    std::vector<Vec_3> sample;
-    list.sample_active(most_samples, [&](const Cell_id& id) { sample.push_back(rough_steiner_point(id.cell)); });
+    std::vector<Territory_map::Item> sample;
+    list.sample_active(most_samples, [&](const Cell_id& id) { sample.push_back({rough_steiner_point(id.cell), box_of(id.cell)}); });
     const Territory_map map(sample.empty() ? sample_vertices(tr_, most_samples) : std::move(sample), n, shares[round % shares.size()]);
     mark_territories(tr_, map);
     division.parts.resize(n);
@@ -281,8 +281,7 @@ class Delaunay_leaf_refiner_3 {
     open(w, task, list);
     Features& features = w.features_;
     const std::size_t before = features.inserted();
-    while (!closing && !features.is_cancelled() && features.step_missing()) {
-    }
+    if (!closing) features.recover_missing();
     if (closing || features.is_cancelled()) features.close(10000);
     features.queues().subsegments.release_if_empty();
     mend_subdomains(features);
@@ -673,6 +672,17 @@ class Delaunay_leaf_refiner_3 {
 
   Poor_tetrahedron poor_tetrahedron(const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {
     return {corners, ball, criteria_.is_over_ratio(ball), criteria_.radius_edge_ratio()};
+  }
+
+  static Region_3 box_of(Cell_handle c) {
+    const Tetrahedron_points corners = tetrahedron_points(c);
+    Region_3 box{corners[0], corners[0]};
+    for (const Vec_3& p : corners)
+      for (int k = 0; k < 3; ++k) {
+        box.lower[k] = std::min(box.lower[k], p[k]);
+        box.upper[k] = std::max(box.upper[k], p[k]);
+      }
+    return box;
   }
 
   /// Good enough to find the leaf that will look at it; that one computes the point itself.

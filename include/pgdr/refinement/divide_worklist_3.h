@@ -28,15 +28,15 @@ inline std::size_t territory_count(std::size_t active, unsigned halvings) {
 /// The vertices of a mesh, or a sample of about `most` of them that does not depend on their order, which timing decides; without those
 /// that only make the hull.
 template <class Tr>
-std::vector<Vec_3> sample_vertices(const Tr& tr, std::size_t most) {
+std::vector<Territory_map::Item> sample_vertices(const Tr& tr, std::size_t most) {
   const std::uint64_t step = 1 + tr.number_of_vertices() / most;
-  std::vector<Vec_3> sample;
+  std::vector<Territory_map::Item> sample;
   for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v) {
     if (v->in_dimension() == 4) continue;
     const Vec_3 p = position(typename Tr::Vertex_handle(v));
     std::uint64_t hash = 0;
     for (int i = 0; i < 3; ++i) hash = (hash ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9e3779b97f4a7c15u;
-    if ((hash >> 32) % step == 0) sample.push_back(p);
+    if ((hash >> 32) % step == 0) sample.push_back({p, {p, p}});
   }
   return sample;
 }

@@ -3,7 +3,9 @@
 #define PGDR_REFINEMENT_TERRITORY_MAP_H
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,25 +14,20 @@
 
 namespace pgdr {
 
-/// The extents of the smallest box around some points.
-inline Vec_3 extents(std::span<const Vec_3> points) {
-  if (points.empty()) return {};
-  Vec_3 lower = points.front(), upper = lower;
-  for (const Vec_3& p : points)
-    for (int i = 0; i < 3; ++i) {
-      lower[i] = std::min(lower[i], p[i]);
-      upper[i] = std::max(upper[i], p[i]);
-    }
-  return upper - lower;
-}
-
-/// Divides space into parts with about as many of the sample points in each, by recursive coordinate bisection (Berger and
-/// Bokhari, IEEE Trans. Computers 36, 1987): across the longer side of what is to be divided.
+/// Divides space into parts with about as many of the sample items in each, by recursive coordinate bisection (Berger and
+/// Bokhari, IEEE Trans. Computers 36, 1987): across the longest side, or another one
+/// with far fewer items on both sides of the cut.
 class Territory_map {
  public:
-  /// Parts are a power of two. Every cut leaves the given share of the points below it; another share moves the borders.
-  /// The order of the points does not matter.
-  Territory_map(std::vector<Vec_3> sample, std::size_t parts, double share) : cuts_(parts - 1) { cut(0, sample, share); }
+  /// Where work is to be done, and the box of what has to be in one part for that.
+  struct Item {
+    Vec_3 at;
+    Region_3 box;
+  };
+
+  /// Parts are a power of two. Every cut leaves the given share of the items below it; another share moves the borders.
+  /// The order of the items does not matter.
+  Territory_map(std::vector<Item> sample, std::size_t parts, double share) : cuts_(parts - 1) { cut(0, sample, share); }
 
   std::size_t parts() const { return cuts_.size() + 1; }
 
@@ -61,25 +58,54 @@ class Territory_map {
   };
 
   /// Node k of a binary tree whose nodes are numbered level by level.
-  void cut(std::size_t k, std::span<Vec_3> points, double share) {
+  void cut(std::size_t k, std::span<Item> items, double share) {
     if (k >= cuts_.size()) return;
     Cut& c = cuts_[k];
     std::size_t below = 0;
-    if (!points.empty()) {
-      const Vec_3 sides = extents(points);
-      for (int i = 1; i < 3; ++i)
-        if (sides[i] > sides[c.axis]) c.axis = i;
-      const auto middle = points.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(points.size()));
-      std::nth_element(points.begin(), middle, points.end(),
-                       [&](const Vec_3& p, const Vec_3& q) { return p[c.axis] < q[c.axis]; });
-      c.at = (*middle)[c.axis];
-      // Of points that are level with the cut, all go above it: which of them the selection put where must not matter.
-      const auto end = std::partition(points.begin(), points.end(), [&](const Vec_3& p) { return p[c.axis] < c.at; });
-      below = static_cast<std::size_t>(end - points.begin());
+    if (!items.empty()) {
+      c = best_cut(items, share);
+      // Of items that are level with the cut, all go above it: which of them the selection put where must not matter.
+      const auto end = std::partition(items.begin(), items.end(), [&](const Item& p) { return p.at[c.axis] < c.at; });
+      below = static_cast<std::size_t>(end - items.begin());
     }
-    cut(2 * k + 1, points.first(below), share);
-    cut(2 * k + 2, points.subspan(below), share);
+    cut(2 * k + 1, items.first(below), share);
+    cut(2 * k + 2, items.subspan(below), share);
   }
+
+  static Cut best_cut(std::span<Item> items, double share) {
+    std::array<int, 3> axes{0, 1, 2};
+    const Vec_3 sides = extents(items);
+    std::ranges::stable_sort(axes, std::greater{}, [&](int axis) { return sides[axis]; });
+    Cut best;
+    std::size_t fewest = 0;
+    for (const int axis : axes) {
+      const Cut c = median_cut(items, axis, share);
+      const auto across = static_cast<std::size_t>(
+          std::ranges::count_if(items, [&](const Item& p) { return p.box.lower[axis] < c.at && c.at <= p.box.upper[axis]; }));
+      if (axis != axes[0] && fewer * across >= fewest) continue;
+      best = c;
+      fewest = across;
+    }
+    return best;
+  }
+
+  static Cut median_cut(std::span<Item> items, int axis, double share) {
+    const auto middle = items.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(items.size()));
+    std::nth_element(items.begin(), middle, items.end(), [&](const Item& p, const Item& q) { return p.at[axis] < q.at[axis]; });
+    return {axis, middle->at[axis]};
+  }
+
+  static Vec_3 extents(std::span<const Item> items) {
+    Vec_3 sides;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [first, last] = std::ranges::minmax_element(items, {}, [&](const Item& p) { return p.at[axis]; });
+      sides[axis] = last->at[axis] - first->at[axis];
+    }
+    return sides;
+  }
+
+  /// A shorter side is divided where by this factor fewer items are across: parts are to be compact, for the sake of cavities.
+  static constexpr std::size_t fewer = 2;
 
   std::vector<Cut> cuts_;
 };
