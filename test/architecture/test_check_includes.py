@@ -42,6 +42,8 @@ BAD = [  # (file, contents, what the message says)
     ("io/a.h", '#include "../conforming/a.h"\n', "io/ must not include conforming/"),
     ("quality/a.h", "#include <pgdr/conforming/a.h>\n", "quality/ must not include conforming/"),
     ("quality/a.h", "#include <pgdr/refinement/refiner.h>\n", "quality/ must not include refinement/"),
+    ("quality/a.h", "#include <pgdr/acute/angles.h>\n", "quality/ must not include acute/"),
+    ("acute/a.h", "#include <pgdr/refinement/refiner.h>\n", "acute/ must not include refinement/"),
     ("refinement/a.h", "#include <pgdr/parallel/loop.h>\n", "the engine in refinement/ must not include parallel/"),
     ("conforming/a.h", "#include <pgdr/parallel/loop.h>\n", "conforming/ must not include parallel/"),
     ("mesh/a.h", "#include <pgdr/parallel/loop.h>\n", "mesh/ must not include parallel/"),
@@ -92,6 +94,12 @@ class CheckIncludes(unittest.TestCase):
             "include/pgdr/report/a.h": "#include <pgdr/quality/a.h>\n",
         })
         self.assertIn("circle: quality -> report -> quality", message)
+
+    def test_a_room_with_a_budget_does_not_grow(self):
+        (message,) = self.messages({f"include/pgdr/acute/{name}.h": "int x;\n" for name in "abcdefg"})
+        self.assertIn("acute/ has 7 files", message)
+        (message,) = self.messages({f"include/pgdr/acute/{name}.h": "int x;\n" * 400 for name in "abc"})
+        self.assertIn("1200 lines", message)
 
     def test_sources_of_a_room_obey_its_rules(self):
         (message,) = self.messages({"src/io/a.cpp": '#include "helper.h"\n#include <pgdr/refinement/refiner.h>\n'})

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/conforming/initial_complex_3.h>
 #include <pgdr/domain/make_domain_3.h>
 

@@ -4,6 +4,7 @@
 #include <pgdr/conforming/facet_plane_3.h>
 #include <pgdr/conforming/split_point_3.h>
 #include <pgdr/domain/default_kernel.h>
+#include <pgdr/mesh/triangle_ball.h>
 
 #include "catch.h"
 #include "seeded_random.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <pgdr/refinement/split_guard_3.h>
+#include <pgdr/acute/split_guard_3.h>
 
 #include "catch.h"
 #include "refinement/refined.h"

@@ -8,7 +8,7 @@
 
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/presence_3.h>
-#include <pgdr/conforming/split_point_3.h>
+#include <pgdr/mesh/triangle_ball.h>
 
 namespace pgdr {
 

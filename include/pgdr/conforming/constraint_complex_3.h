@@ -13,9 +13,9 @@
 
 #include <pgdr/conforming/facet_plane_3.h>
 #include <pgdr/conforming/slot_array.h>
-#include <pgdr/conforming/split_point_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
+#include <pgdr/mesh/triangle_ball.h>
 
 namespace pgdr {
 

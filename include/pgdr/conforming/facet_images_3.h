@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/acute/facet_wedges_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/encroachment_3.h>
-#include <pgdr/conforming/facet_wedges_3.h>
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/sheet_walk_3.h>
 

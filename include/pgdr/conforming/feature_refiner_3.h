@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/acute/split_spacing_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/cavity_search_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
@@ -24,7 +25,6 @@
 #include <pgdr/conforming/sheet_repair_3.h>
 #include <pgdr/conforming/sheet_walk_3.h>
 #include <pgdr/conforming/split_points_3.h>
-#include <pgdr/conforming/split_spacing_3.h>
 #include <pgdr/conforming/torn_features_3.h>
 #include <pgdr/domain/region_3.h>
 #include <pgdr/mesh/cavity_3.h>

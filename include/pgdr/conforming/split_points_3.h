@@ -7,11 +7,12 @@
 #include <cstdint>
 #include <utility>
 
-#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/acute/protected_balls_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/feature_request.h>
-#include <pgdr/conforming/protected_balls_3.h>
 #include <pgdr/conforming/split_point_3.h>
+#include <pgdr/mesh/triangle_ball.h>
 
 namespace pgdr {
 

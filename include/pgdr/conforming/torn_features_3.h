@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 
-#include <pgdr/conforming/acute_neighborhood_3.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/acute/split_spacing_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
-#include <pgdr/conforming/split_spacing_3.h>
 
 namespace pgdr {
 

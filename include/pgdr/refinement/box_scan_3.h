@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/refinement/cell_scan_3.h>
 #include <pgdr/refinement/enclosing_ball.h>
 #include <pgdr/refinement/leaf_refiner.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
 

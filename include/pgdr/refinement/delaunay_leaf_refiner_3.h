@@ -11,10 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/acute/split_guard_3.h>
 #include <pgdr/conforming/encroachment_3.h>
 #include <pgdr/conforming/feature_refiner_3.h>
 #include <pgdr/conforming/flat_cell_3.h>
 #include <pgdr/conforming/subdomains_3.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
+#include <pgdr/mesh/triangle_ball.h>
 #include <pgdr/refinement/box_scan_3.h>
 #include <pgdr/refinement/divide_worklist_3.h>
 #include <pgdr/refinement/enclosing_ball.h>
@@ -26,8 +29,6 @@
 #include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/separating_subfacet_3.h>
-#include <pgdr/refinement/split_guard_3.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
 

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <limits>
 
-#include <pgdr/conforming/split_point_3.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
+#include <pgdr/mesh/triangle_ball.h>
 
 namespace pgdr {
 

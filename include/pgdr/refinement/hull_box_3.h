@@ -7,7 +7,7 @@
 
 #include <pgdr/domain/region_3.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
 
 namespace pgdr {
 

@@ -16,6 +16,7 @@
 
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/parallel/parallel_for.h>
 #include <pgdr/parallel/parallel_reduce.h>
 #include <pgdr/parallel/parallel_sort.h>
@@ -23,7 +24,6 @@
 #include <pgdr/refinement/canonical_order.h>
 #include <pgdr/refinement/refined_mesh_3.h>
 #include <pgdr/refinement/sort_tetrahedra.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <pgdr/mesh/mesh_triangulation_3.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
 
 namespace pgdr {
 

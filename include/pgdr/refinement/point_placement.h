@@ -9,8 +9,8 @@
 #include <boost/container/static_vector.hpp>
 
 #include <pgdr/independence/selection_ball.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/parameters.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
 
 namespace pgdr {
 

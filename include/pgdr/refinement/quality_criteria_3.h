@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <pgdr/conforming/subdomains_3.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/sizing/sizing_field.h>
 
 namespace pgdr {

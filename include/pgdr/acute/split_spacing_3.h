@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_CONFORMING_SPLIT_SPACING_3_H
-#define PGDR_CONFORMING_SPLIT_SPACING_3_H
+#ifndef PGDR_ACUTE_SPLIT_SPACING_3_H
+#define PGDR_ACUTE_SPLIT_SPACING_3_H
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 
-#include <pgdr/conforming/acute_neighborhood_3.h>
-#include <pgdr/conforming/feature_id.h>
-#include <pgdr/conforming/feature_request.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/acute/split_guard_3.h>
+#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mesh/cavity_3.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_CONFORMING_PROTECTED_BALLS_3_H
-#define PGDR_CONFORMING_PROTECTED_BALLS_3_H
+#ifndef PGDR_ACUTE_PROTECTED_BALLS_3_H
+#define PGDR_ACUTE_PROTECTED_BALLS_3_H
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_CONFORMING_NARROW_ANGLES_3_H
-#define PGDR_CONFORMING_NARROW_ANGLES_3_H
+#ifndef PGDR_ACUTE_NARROW_ANGLES_3_H
+#define PGDR_ACUTE_NARROW_ANGLES_3_H
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include <pgdr/conforming/feature_id.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/small_angles_3.h>
 
 namespace pgdr {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <pgdr/conforming/narrow_angles_3.h>
+#include <pgdr/acute/narrow_angles_3.h>
 
 #include <algorithm>
 #include <array>

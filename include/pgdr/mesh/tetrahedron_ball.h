@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_REFINEMENT_TETRAHEDRON_BALL_H
-#define PGDR_REFINEMENT_TETRAHEDRON_BALL_H
+#ifndef PGDR_MESH_TETRAHEDRON_BALL_H
+#define PGDR_MESH_TETRAHEDRON_BALL_H
 
 #include <algorithm>
 #include <array>

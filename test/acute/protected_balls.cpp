@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include <pgdr/conforming/acute_neighborhood_3.h>
-#include <pgdr/conforming/protected_balls_3.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/acute/protected_balls_3.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/io/read_plc.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <pgdr/conforming/facet_wedges_3.h>
+#include <pgdr/acute/facet_wedges_3.h>
 #include <pgdr/domain/make_domain_3.h>
 
 #include "catch.h"

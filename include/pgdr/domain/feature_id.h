@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_CONFORMING_FEATURE_ID_H
-#define PGDR_CONFORMING_FEATURE_ID_H
+#ifndef PGDR_DOMAIN_FEATURE_ID_H
+#define PGDR_DOMAIN_FEATURE_ID_H
 
 #include <pgdr/domain/domain_3.h>
 

@@ -1,22 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_REFINEMENT_SPLIT_GUARD_3_H
-#define PGDR_REFINEMENT_SPLIT_GUARD_3_H
+#ifndef PGDR_ACUTE_SPLIT_GUARD_3_H
+#define PGDR_ACUTE_SPLIT_GUARD_3_H
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
-#include <pgdr/conforming/acute_neighborhood_3.h>
-#include <pgdr/conforming/feature_id.h>
-#include <pgdr/conforming/feature_request.h>
-#include <pgdr/conforming/narrow_angles_3.h>
-#include <pgdr/conforming/split_point_3.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/acute/narrow_angles_3.h>
+#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/vec_3.h>
-#include <pgdr/refinement/tetrahedron_ball.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
+#include <pgdr/mesh/triangle_ball.h>
 
 namespace pgdr {
+
+/// Why a subsegment or subfacet is to be split.
+enum class Split_reason : std::uint8_t {
+  missing,     ///< the 3D triangulation lacks it: conformity demands the split
+  encroached,  ///< a vertex lies in its diametral or equatorial ball, or a tetrahedron's Steiner point would
+  flat         ///< a tetrahedron has all four vertices on its facet
+};
+
+/// The shortest edge that a split may make next to small input angles. Away from these there is no such limit, unless it is strict, since
+/// the theory promises one; next to them it is what keeps the refinement from going on for ever.
+struct Split_guard {
+  double floor = 0;                     ///< no new edge below this
+  std::array<Vec_3, 4> where{};         ///< "next to" is: one of these points
+  std::size_t count = 0;                ///< how many of them; 0: the split point itself
+  double reach = 0;                     ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
+  double floor_apart = 0;               ///< if positive, in the place of `floor` for pieces without a vertex in which
+  std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
+  double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex inherits
+  bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
+  bool is_strict = false;               ///< the floor holds everywhere
+
+  /// Whether the client is given up as soon as one piece in its way refuses: with an edge as short as a small angle makes it, unless
+  /// that is much shorter than what is around.
+  bool gives_up_at_once() const { return is_at_wedge || floor_apart > 0; }
+  /// Whether one of the points is next to a small angle.
+  bool is_near(const Acute_neighborhood_3& acute) const {
+    return std::any_of(where.begin(), where.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const Vec_3& p) { return acute.contains(p, reach); });
+  }
+};
 
 /// Calls `found(i, j)` with the ends of each edge that is as short as the shortest one.
 template <class Found>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_CONFORMING_ACUTE_NEIGHBORHOOD_3_H
-#define PGDR_CONFORMING_ACUTE_NEIGHBORHOOD_3_H
+#ifndef PGDR_ACUTE_ACUTE_NEIGHBORHOOD_3_H
+#define PGDR_ACUTE_ACUTE_NEIGHBORHOOD_3_H
 
 #include <algorithm>
 #include <array>
@@ -22,11 +22,11 @@
 #include <CGAL/AABB_traits.h>
 #endif
 
-#include <pgdr/conforming/facet_wedges_3.h>
-#include <pgdr/conforming/feature_id.h>
-#include <pgdr/conforming/narrow_angles_3.h>
-#include <pgdr/conforming/protected_balls_3.h>
+#include <pgdr/acute/facet_wedges_3.h>
+#include <pgdr/acute/narrow_angles_3.h>
+#include <pgdr/acute/protected_balls_3.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
 
