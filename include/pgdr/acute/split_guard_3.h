@@ -100,9 +100,9 @@ double inherited_radius(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
 /// What keeps a tetrahedron's splits from going on for ever next to small angles: a split on its behalf may not make
 /// edges shorter than this there.
 ///
-/// Half its shortest edge (all of it would do in theory, and leaves more tetrahedra poor), but between vertices on features
-/// that meet at a small angle the smaller of their insertion radii: the edge is as short as the angle makes it, and splits
-/// may go on towards the place where they meet. Where that is a vertex, pieces that do not touch it may be split down to half
+/// Half its shortest edge, but between vertices on features that meet at a small angle the smaller of their insertion radii, where that is
+/// more: the edge is as short as the angle makes it, and splits could go on towards the place where they meet. Theorem 5 (docs/theory.md) asks
+/// for all of the edge; what that costs is said there. Where that is a vertex, pieces that do not touch it may be split down to half
 /// of the edge after all: away from the vertex its length is bounded from below. That costs as many points as insertion radii
 /// fit the edge more than once, so it is done up to a ratio of `most_points` only. A tetrahedron that is only too large may
 /// also halve its circumradius.
