@@ -101,8 +101,8 @@ double inherited_radius(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
 /// edges shorter than this there.
 ///
 /// Half its shortest edge, but between vertices on features that meet at a small angle the smaller of their insertion radii, where that is
-/// more: the edge is as short as the angle makes it, and splits could go on towards the place where they meet. Theorem 5 (docs/theory.md) asks
-/// for all of the edge; what that costs is said there. Where that is a vertex, pieces that do not touch it may be split down to half
+/// more: the edge is as short as the angle makes it, and splits could go on towards the place where they meet. (Theorem 5 in
+/// docs/theory.md asks for all of the edge; what that costs is said there.) Where that place is a vertex, pieces that do not touch it may be split down to half
 /// of the edge after all: away from the vertex its length is bounded from below. That costs as many points as insertion radii
 /// fit the edge more than once, so it is done up to a ratio of `most_points` only. A tetrahedron that is only too large may
 /// also halve its circumradius.

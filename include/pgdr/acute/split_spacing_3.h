@@ -47,16 +47,14 @@ class Split_spacing_3 {
     return {.floor = v->insertion_radius(), .reach = reach(on, m, v), .relaxed = v->relaxed_radius()};
   }
 
-  /// Whether a point is closer to a vertex of its cavity than any edge may be long, whoever asks for it.
-  bool is_below_minimum(const Cavity_3<Tr>& cavity, const Vec_3& m) const {
-    return cavity.squared_insertion_radius(m) < squared_min_edge_;
-  }
+  /// Whether a point at this squared distance from a vertex is too close to it, whoever asks for the point.
+  bool is_below_minimum(double squared_distance) const { return squared_distance < squared_min_edge_; }
 
   /// Whether m, the split point of a piece with these vertices and this radius, is not to be inserted.
   bool is_too_close(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason,
                     const Split_guard& guard, double radius) const {
-    if (is_below_minimum(cavity, m)) return true;
     const double d2 = cavity.squared_insertion_radius(m);
+    if (is_below_minimum(d2)) return true;
     const double floor2 = squared_floor(vertices, guard);
     if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return false;
     return is_near_angle(m, guard, radius);

@@ -452,7 +452,7 @@ class Feature_refiner_3 {
     const double radius = i.by->insertion_radius(), near = 0.5 * std::min(radius, length(i.at - position(i.by)));
     const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.facet); };
     if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near ||
-        spacing_.is_below_minimum(cavity_, i.at))
+        spacing_.is_below_minimum(cavity_.squared_insertion_radius(i.at)))
       return cavity_.abandon();
     const std::vector<Piece_id> way = images_.in_the_way(i, p, near, features_, at);
     if (!way.empty()) return make_way(i, way);

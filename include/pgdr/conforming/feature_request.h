@@ -2,8 +2,6 @@
 #ifndef PGDR_CONFORMING_FEATURE_REQUEST_H
 #define PGDR_CONFORMING_FEATURE_REQUEST_H
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -13,7 +11,6 @@
 #include <pgdr/acute/split_guard_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/fifo.h>
-#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
