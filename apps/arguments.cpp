@@ -8,6 +8,8 @@
 #include <string_view>
 #include <system_error>
 
+#include <CLI/CLI.hpp>
+
 namespace pgdr::app {
 
 namespace {
@@ -87,6 +89,25 @@ std::size_t parse_count(const std::string& option, const std::string& text) {
   std::size_t value = 0;
   if (!read_all(text, value) || value == 0)
     throw Usage_error(option + " must be a whole number of at least 1, not " + text);
+  return value;
+}
+
+std::size_t parse_count(const std::string& option, const std::string& text, std::size_t most) {
+  const std::size_t value = parse_count(option, text);
+  if (value > most) throw Usage_error(option + " must be at most " + std::to_string(most) + ", not " + text);
+  return value;
+}
+
+std::size_t parse_memory(const std::string& option, const std::string& text) {
+  std::string bytes = text;
+  std::size_t value = 0;
+  bool is_read = false;
+  try {
+    is_read = CLI::AsSizeValue(false)(bytes).empty() && read_all(bytes, value);
+  } catch (const CLI::Error&) {
+    // Said below.
+  }
+  if (!is_read || value == 0) throw Usage_error(option + " must be an amount of memory like 500M or 4G, not " + text);
   return value;
 }
 

@@ -46,6 +46,12 @@ double parse_ratio_bound(const std::string& option, const std::string& text);
 /// A whole number, at least 1.
 std::size_t parse_count(const std::string& option, const std::string& text);
 
+/// A whole number from 1 to `most`.
+std::size_t parse_count(const std::string& option, const std::string& text, std::size_t most);
+
+/// An amount of memory in bytes, at least 1: "500000000", "500M", "4GiB"; K, M, G and T are powers of 1024.
+std::size_t parse_memory(const std::string& option, const std::string& text);
+
 /// A number of threads: a whole number from 0, for all that the machine has, to 1024.
 unsigned parse_threads(const std::string& option, const std::string& text);
 

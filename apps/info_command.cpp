@@ -44,6 +44,8 @@ void print_angle(const std::string& name, double degrees) {
 }
 
 std::string closedness(const Domain_summary& summary) {
+  const auto is_intersection = [](const Input_problem& p) { return p.kind == Input_problem::Kind::self_intersection; };
+  if (std::ranges::any_of(summary.problems, is_intersection)) return "not known, since facets intersect";
   if (!summary.closed) return "no";
   std::string text = "yes";
   if (summary.open_edges > 0)

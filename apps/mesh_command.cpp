@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -16,7 +17,8 @@
 #include <pgdr/quality/exempt_angles.h>
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/refine_mesh_3.h>
-#include <pgdr/report/peak_memory.h>
+#include <pgdr/report/format.h>
+#include <pgdr/report/memory.h>
 #include <pgdr/report/phase_timer.h>
 #include <pgdr/report/progress_line.h>
 #include <pgdr/report/run_summary.h>
@@ -28,6 +30,7 @@
 #include "interrupt.h"
 #include "messages.h"
 #include "read_domain.h"
+#include "size_estimate.h"
 #include "stats_file.h"
 #include "trace_file.h"
 
@@ -45,6 +48,8 @@ struct Mesh_arguments {
   std::string placement;
   std::string min_edge_length;
   std::string max_vertices;
+  std::string max_memory;
+  std::string time_limit;
   std::string threads;
   std::string stats;
   std::string trace;
@@ -91,23 +96,30 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
                   "Leave out the volume bounds of the input's regions");
   parser
       .add_option("--min-edge-length", arguments.min_edge_length,
-                  "Make no edge shorter than this by choice (default: 1e-9 of the bounding box's diagonal)")
+                  "Put no new vertex closer than this to another one, and stop where the bounds ask for it (default: 1e-9 of the bounding box's diagonal)")
       ->type_name("L");
   parser
       .add_option("--max-vertices", arguments.max_vertices, "Stop at this many vertices (default: no limit)")
       ->type_name("N");
+  parser
+      .add_option("--max-memory", arguments.max_memory,
+                  "Stop before more memory than this is needed, as 500M or 4G; 'none': no limit (default: nine tenths of what is free)")
+      ->type_name("SIZE");
+  parser.add_option("--time-limit", arguments.time_limit, "Stop the refinement after so many seconds (default: no limit)")
+      ->type_name("SECONDS");
   parser.add_option("--threads", arguments.threads, "Number of threads (default and 0: one per core); the mesh is the same for all")
       ->type_name("N");
   parser
       .add_option("--octree-depth", arguments.octree_depth,
-                  "For comparison: refine on the fixed octree of this depth, 1 for plain sequential refinement "
+                  "For comparison: refine on the fixed octree of this depth, 1 (plain sequential refinement) to 7 "
                   "(default: the octree grows with the mesh)")
       ->type_name("D");
   parser.add_flag("--check-zones", arguments.check_zones,
                   "Check that parallel tasks keep their distance, and stop the program if not");
   parser.add_flag("--verify", arguments.verify, "Run CGAL's is_valid() on the triangulation when it is done");
   parser.add_flag("--quiet", arguments.quiet, "No progress line and no summary");
-  parser.add_option("--stats", arguments.stats, "Write the summary as JSON")->type_name("FILE");
+  parser.add_option("--stats", arguments.stats, "Write the summary as JSON; '-': to the standard output, in place of the one for people")
+      ->type_name("FILE");
   parser
       .add_option("--trace", arguments.trace,
                   "Write a timeline of all leaf tasks in the Chrome trace-event format, for chrome://tracing or Perfetto")
@@ -122,6 +134,24 @@ Command_line_sizing sizing_field(const Mesh_arguments& arguments) {
   return Command_line_sizing(base, std::move(boxes));
 }
 
+/// A box that is nowhere near the domain is a slip, more often than not.
+void warn_of_boxes_outside(const Command_line_sizing& sizing, const Domain& domain) {
+  for (const Sizing_box& box : sizing.boxes()) {
+    bool is_outside = false;
+    for (std::size_t k = 0; k < 3; ++k) is_outside |= box.lower[k] > domain.upper[k] || box.upper[k] < domain.lower[k];
+    if (is_outside)
+      print_message("warning: the refined box from " + significant(box.lower[0]) + "," + significant(box.lower[1]) + "," +
+                    significant(box.lower[2]) + " lies outside of the input");
+  }
+}
+
+/// In bytes; 0: none.
+std::size_t memory_limit(const std::string& text) {
+  if (text == "none") return 0;
+  if (!text.empty()) return parse_memory("--max-memory", text);
+  return attainable_memory_bytes().value_or(0) / 10 * 9;
+}
+
 Parameters parameters(const Mesh_arguments& arguments) {
   Parameters p;
   if (!arguments.radius_edge_ratio.empty())
@@ -134,7 +164,9 @@ Parameters parameters(const Mesh_arguments& arguments) {
     p.min_edge_length = parse_positive("--min-edge-length", arguments.min_edge_length);
   if (!arguments.max_vertices.empty()) p.max_vertices = parse_count("--max-vertices", arguments.max_vertices);
   if (!arguments.octree_depth.empty())
-    p.octree_depth = static_cast<int>(std::min<std::size_t>(parse_count("--octree-depth", arguments.octree_depth), 12));
+    p.octree_depth = static_cast<int>(parse_count("--octree-depth", arguments.octree_depth, Parameters::largest_octree_depth));
+  p.max_memory = memory_limit(arguments.max_memory);
+  if (!arguments.time_limit.empty()) p.time_limit = parse_positive("--time-limit", arguments.time_limit);
   p.check_zones = p.check_zones || arguments.check_zones;
   p.record_tasks = !arguments.trace.empty();
   p.verify = arguments.verify;
@@ -145,7 +177,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
 void check_outputs(const Mesh_arguments& arguments) {
   for (const std::string& output : arguments.outputs) require_extension("-o", output, {".vtu", ".mesh"});
   std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
-  if (!arguments.stats.empty()) files.emplace_back(arguments.stats);
+  if (!arguments.stats.empty() && arguments.stats != "-") files.emplace_back(arguments.stats);
   if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
   add_problem_file(arguments.problems, files);
   require_distinct_files({arguments.input}, files);
@@ -177,7 +209,10 @@ int run_mesh(const Mesh_arguments& arguments) {
       print_or_throw(problems);
     });
   }
+  warn_of_boxes_outside(sizing, *domain);
+  if (p.max_vertices == 0) require_memory(expected_vertices(*domain, sizing, p.ignore_region_sizes), p.max_memory);
   timer.end_phase("validation");
+  if (p.time_limit > 0) p.time_limit = std::max(p.time_limit - timer.total_seconds(), 1e-3);
 
   run.threads = thread_count();
   Indexed_mesh_3 mesh;
@@ -202,6 +237,8 @@ int run_mesh(const Mesh_arguments& arguments) {
   run.checksum = mesh_checksum(mesh);
   run.exempt_tetrahedra = mesh.exempt.size();
   run.exempt_angles = exempt_angles(mesh, *domain);
+  run.steiner_vertices = mesh.points.size() - static_cast<std::size_t>(std::ranges::count(mesh.point_dimensions, 0));
+  run.unrefined_tetrahedra = mesh.unrefined.size();
   timer.end_phase("measuring");
   // A mesh of nothing is of no use to anybody, and what it would replace may be.
   const bool is_usable = !mesh.tetrahedra.empty();
@@ -218,7 +255,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   run.peak_memory_bytes = peak_memory_bytes();
   if (!arguments.stats.empty()) write_stats(run, arguments.stats);
   if (!arguments.trace.empty()) write_trace(run.schedule, arguments.trace);
-  if (!arguments.quiet) print_summary(std::cout, run);
+  if (!arguments.quiet && arguments.stats != "-") print_summary(std::cout, run);
   if (run.stop == Stop_reason::finished && !is_usable) {
     print_message(arguments.input + " encloses nothing that is not a hole: there are no tetrahedra, and nothing was written");
     return exit_bad_input;

@@ -120,10 +120,7 @@ void add_problem_file(const std::string& path, std::vector<std::filesystem::path
 
 Problems sort_problems(const std::vector<Input_problem>& problems) {
   Problems sorted;
-  for (const Input_problem& problem : problems) {
-    const bool harmless = problem.kind == Input_problem::Kind::bad_seed;
-    (harmless ? sorted.warnings : sorted.errors).push_back(problem);
-  }
+  for (const Input_problem& problem : problems) (problem.is_warning() ? sorted.warnings : sorted.errors).push_back(problem);
   return sorted;
 }
 

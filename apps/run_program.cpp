@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <iostream>
@@ -15,6 +16,8 @@
 #include "command.h"
 #include "exit_code.h"
 #include "messages.h"
+#include "size_estimate.h"
+#include "unknown_option.h"
 
 namespace pgdr::app {
 
@@ -38,6 +41,10 @@ int parse_and_run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::Success& request) {
     return program.exit(request);  // --help, --version
+  } catch (const CLI::ExtrasError&) {
+    const auto is_parsed = [](const Command& command) { return command.parser->parsed(); };
+    const auto command = std::ranges::find_if(commands, is_parsed);
+    throw Usage_error(unknown_argument_text(command == commands.end() ? program : *command->parser) + " (--help tells what is possible)");
   } catch (const CLI::ParseError& error) {
     throw Usage_error(std::string(error.what()) + " (--help tells what is possible)");
   }
@@ -69,6 +76,8 @@ int run_program(int argc, char** argv) {
     if (error.problems().empty()) return report(exit_bad_input, error.what());
     print_problems(error.problems());
     return exit_bad_input;
+  } catch (const Size_error& error) {
+    return report(exit_stopped, error.what());
   } catch (const Output_error& error) {
     return report(exit_failed, error.what());
   } catch (const std::bad_alloc&) {

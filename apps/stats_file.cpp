@@ -76,12 +76,14 @@ std::string stats_json(const Run_summary& run) {
                      {"triangles", quality.triangles},
                      {"edges", quality.edges},
                      {"steiner_points", run.steiner_points},
+                     {"steiner_vertices", run.steiner_vertices},
                      {"max_radius_edge_ratio", quality.max_radius_edge_ratio},
                      {"mean_radius_edge_ratio", quality.mean_radius_edge_ratio},
                      {"max_circumradius", quality.max_circumradius},
                      {"min_dihedral_deg", quality.min_dihedral_deg},
                      {"exempt_tetrahedra", run.exempt_tetrahedra},
                      {"exempt_angles", exempt_angles},
+                     {"unrefined_tetrahedra", run.unrefined_tetrahedra},
                      {"unrecovered", run.unrecovered},
                      {"threads", run.threads},
                      {"seconds", seconds},
@@ -96,6 +98,10 @@ std::string stats_json(const Run_summary& run) {
 }
 
 void write_stats(const Run_summary& run, const std::filesystem::path& path) {
+  if (path == "-") {
+    std::cout << stats_json(run);
+    return;
+  }
   Atomic_file file(path);
   file.write(stats_json(run));
   file.commit();

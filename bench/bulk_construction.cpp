@@ -14,7 +14,7 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 
 #include <pgdr/refine_mesh_3.h>
-#include <pgdr/report/peak_memory.h>
+#include <pgdr/report/memory.h>
 
 namespace {
 

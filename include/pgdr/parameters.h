@@ -43,13 +43,20 @@ struct Parameters {
   /// Leave out the volume bounds of the regions in the input.
   bool ignore_region_sizes = false;
 
-  /// No edge shorter than this is made by choice; 0: 1e-9 of the bounding box's diagonal,
-  /// below which double precision no longer separates the points of a facet.
+  /// No Steiner point comes closer than this to another vertex; 0: 1e-9 of the bounding box's diagonal, below which double
+  /// precision no longer separates the points of a facet. What cannot be recovered or refined without is left, and counted.
   double min_edge_length = 0;
 
   /// The refinement stops at this many vertices, plus the few it may take to leave every facet whole; 0: no limit.
   /// Where not even the recovery of the input fits, the mesh lacks pieces of it, and the statistics say so.
   std::size_t max_vertices = 0;
+
+  /// The refinement stops before the process needs more memory than this, in bytes, numbering included; 0: no limit. Where it does,
+  /// the mesh depends on the machine.
+  std::size_t max_memory = 0;
+
+  /// The refinement stops after this many seconds; 0: no limit. Where it does, the mesh depends on the machine.
+  double time_limit = 0;
 
   /// Threads that refine; 0: as many as the calling thread's TBB arena has. The mesh is the same for every number.
   unsigned threads = 0;
@@ -58,6 +65,9 @@ struct Parameters {
   /// and Chrisochoides, refined by one thread until its buffer condition (18) and the zone condition hold. For
   /// comparison; 1 is plain sequential refinement.
   int octree_depth = 0;
+  /// 262,144 leaves, of two kilobytes each. The mesh between two leaves must be finer than a quarter of them, so that with more of
+  /// them a leaf would be the size of a few hundred tetrahedra of a mesh of a billion.
+  static constexpr int largest_octree_depth = 7;
 
   /// Leaves of the octree get smaller, and more of them can be worked on at once, only if the space around the domain is
   /// refined with them. This many points out there may be spent on each point that waits inside. 1/2: less than what a

@@ -2,17 +2,22 @@
 #ifndef PGDR_REFINE_MESH_3_H
 #define PGDR_REFINE_MESH_3_H
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <pgdr/conforming/conforming_delaunay_3.h>
 #include <pgdr/conforming/subdomains_3.h>
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/parallel/parallel_for.h>
+#include <pgdr/parallel/parallel_walk.h>
 #include <pgdr/parallel/thread_arena.h>
 #include <pgdr/parameters.h>
 #include <pgdr/refinement/delaunay_leaf_refiner_3.h>
@@ -20,7 +25,9 @@
 #include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/refined_mesh_3.h>
+#include <pgdr/report/format.h>
 #include <pgdr/schedule/epoch_scheduler.h>
+#include <pgdr/schedule/limit_watch.h>
 #include <pgdr/sizing/box_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
@@ -40,10 +47,11 @@ class Mesher_3 {
 
  public:
   Mesher_3(Domain_3<K> domain, const Parameters& parameters, Placement placement)
-      : parameters_(parameters), placement_(std::move(placement)), mesh_(std::move(domain)), acute_(mesh_.domain()),
+      : parameters_(parameters), watch_(parameters.cancel, memory_to_refine(parameters), parameters.time_limit), placement_(std::move(placement)), mesh_(std::move(domain)), acute_(mesh_.domain()),
         min_edge_length_(parameters.min_edge_length > 0 ? parameters.min_edge_length
                                                         : 1e-9 * mesh_.domain().diagonal),
         features_(mesh_.triangulation(), mesh_.complex(), acute_, min_edge_length_) {
+    parameters_.cancel = watch_.flag();
     mesh_.set_radius_edge_ratio(parameters.radius_edge_ratio);
   }
 
@@ -65,7 +73,9 @@ class Mesher_3 {
     mesh_.subdomains() =
         Subdomain_labeler_3<Tr>(mesh_.triangulation(), mesh_.complex()).label(parameters_.ignore_region_sizes);
     lap("labelling");
-    if (count_missing() == 0 && reason_ == Stop_reason::finished) refine(sizing);
+    const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains());
+    if (count_missing() == 0 && reason_ == Stop_reason::finished) refine(criteria);
+    if (reason_ != Stop_reason::finished) note_unrefined(criteria);
     mesh_.triangulation().restore_infinite_cell(on_hull);
     lap("refinement");
     if (parameters_.verify && !mesh_.triangulation().is_valid())
@@ -76,13 +86,16 @@ class Mesher_3 {
   }
 
  private:
-  void refine(const Sizing& sizing) {
-    const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains());
+  /// Numbering needs a third more than what is refined (docs/performance.md): 160 bytes a tetrahedron instead of 135, and 20 where it
+  /// was left poor.
+  static std::size_t memory_to_refine(const Parameters& parameters) { return parameters.max_memory / 4 * 3; }
+
+  void refine(const Criteria& criteria) {
     Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_, placement_);
     with_threads(parameters_.threads, [&] {
       Epoch_scheduler<Engine> scheduler(engine, parameters_, mesh_.triangulation().number_of_vertices());
-      if (!scheduler.run())
-        reason_ = parameters_.cancel && parameters_.cancel->load() ? Stop_reason::cancelled : Stop_reason::vertex_budget;
+      if (!scheduler.run()) reason_ = watch_.reached() == Limit_watch::Limit::none ? Stop_reason::vertex_budget : reason_of(watch_.reached());
+      if (scheduler.limited() > 0) limited_ = count_limited();
       mesh_.statistics().schedule = std::move(scheduler.statistics());
     });
   }
@@ -92,9 +105,45 @@ class Mesher_3 {
     if (reason_ != Stop_reason::finished) return true;
     const std::size_t vertices = mesh_.triangulation().number_of_vertices();
     if (parameters_.max_vertices > 0 && vertices >= parameters_.max_vertices) reason_ = Stop_reason::vertex_budget;
-    if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = Stop_reason::cancelled;
+    if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = reason_of(watch_.reached());
     if (parameters_.progress && ++calls_ % 4096 == 0) parameters_.progress({"conforming", vertices, features_.pending()});
     return reason_ != Stop_reason::finished;
+  }
+
+  static Stop_reason reason_of(Limit_watch::Limit limit) {
+    switch (limit) {
+      case Limit_watch::Limit::memory: return Stop_reason::memory_limit;
+      case Limit_watch::Limit::time: return Stop_reason::time_limit;
+      case Limit_watch::Limit::caller:
+      case Limit_watch::Limit::none: break;
+    }
+    return Stop_reason::cancelled;
+  }
+
+  /// f(cell) for all cells that are meshed, on all threads.
+  void for_meshed_cells(const auto& f) const {
+    const Tr& tr = mesh_.triangulation();
+    parallel_walk(tr.finite_cells_begin(), tr.finite_cells_end(), default_grain, [&](std::size_t, auto it, std::size_t count) {
+      for (; count > 0; --count, ++it)
+        if (it->subdomain() != 0) f(typename Tr::Cell_handle(it));
+      return 0;
+    });
+  }
+
+  std::size_t count_limited() const {
+    std::atomic<std::size_t> n = 0;
+    for_meshed_cells([&n](auto c) { n += c->state() == Cell_state::limited; });
+    return n;
+  }
+
+  /// A stop leaves cells that nobody has looked at.
+  void note_unrefined(const Criteria& criteria) {
+    with_threads(parameters_.threads, [&] {
+      for_meshed_cells([&criteria](auto c) {
+        if (c->state() == Cell_state::good && criteria.is_poor(tetrahedron_ball(tetrahedron_points(c)), c->subdomain()))
+          c->set_state(Cell_state::poor);
+      });
+    });
   }
 
   void lap(const char* phase) {
@@ -108,7 +157,7 @@ class Mesher_3 {
     s.unrecovered = count_missing();
     s.steiner_points = mesh_.triangulation().number_of_vertices() - mesh_.domain().vertices.size() -
                        (is_box(mesh_.domain()) ? 0 : 8);
-    if (reason_ == Stop_reason::finished && s.unrecovered > 0) reason_ = Stop_reason::min_edge_length;
+    if (reason_ == Stop_reason::finished && (s.unrecovered > 0 || limited_ > 0)) reason_ = Stop_reason::min_edge_length;
     s.stop = reason_;
     const std::string lost =
         s.unrecovered == 0 ? "" : "; " + std::to_string(s.unrecovered) + " pieces of the input are not in the mesh";
@@ -118,8 +167,15 @@ class Mesher_3 {
         s.stop_message = "stopped at the limit of " + std::to_string(parameters_.max_vertices) + " vertices" + lost;
         break;
       case Stop_reason::cancelled: s.stop_message = "cancelled" + lost; break;
+      case Stop_reason::memory_limit:
+        s.stop_message = "stopped at the limit of " + memory_size(parameters_.max_memory) + " of memory" + lost;
+        break;
+      case Stop_reason::time_limit:
+        s.stop_message = "stopped at the limit of " + significant(parameters_.time_limit, 3) + " s" + lost;
+        break;
       case Stop_reason::min_edge_length:
-        s.stop_message = "stopped at the minimum edge length, next to a small input angle" + lost;
+        s.stop_message = "stopped at the minimum edge length of " + significant(min_edge_length_, 3) + lost;
+        if (limited_ > 0) s.stop_message += "; " + counted(limited_, "tetrahedron", "tetrahedra") + " could not be refined";
         break;
     }
   }
@@ -134,13 +190,15 @@ class Mesher_3 {
     return n;
   }
 
-  const Parameters& parameters_;
+  Parameters parameters_;
+  Limit_watch watch_;
   Placement placement_;
   Mesh mesh_;
   Acute_neighborhood_3 acute_;
   double min_edge_length_;
   Feature_refiner_3<Tr> features_;
   Stop_reason reason_ = Stop_reason::finished;
+  std::size_t limited_ = 0;  ///< tetrahedra at the minimum edge length
   std::size_t calls_ = 0;
   Clock::time_point start_;
 };
@@ -161,6 +219,8 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
                                 Placement placement) {
   if (!(parameters.radius_edge_ratio >= 2))
     throw std::invalid_argument("the radius-edge ratio must be at least 2: below it the refinement need not end");
+  if (parameters.octree_depth < 0 || parameters.octree_depth > Parameters::largest_octree_depth)
+    throw std::invalid_argument("the depth of the octree must be from 0 to " + std::to_string(Parameters::largest_octree_depth));
   return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), parameters, std::move(placement)).run(sizing);
 }
 
@@ -171,14 +231,18 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
   return refine_mesh_3(std::move(domain), sizing, parameters, Standard_placement{parameters.placement});
 }
 
-/// The same from a PLC as the user wrote it. Throws `Input_error` with every problem that is found in it.
+/// The same from a PLC as the user wrote it. Throws `Input_error` with every problem that is found in it; where these are only
+/// warnings, they are in the statistics.
 template <class K, class Sizing>
   requires SizingField<Sizing, K>
 Refined_mesh_3<K> refine_mesh_3(const Piecewise_linear_complex_3<K>& plc, const Sizing& sizing,
                                 const Parameters& parameters = {}) {
   Domain_3<K> domain = make_domain_3(plc, parameters.coplanar_tolerance, parameters.triangulate_facets);
-  if (auto problems = validate_domain_3(domain); !problems.empty()) throw Input_error(std::move(problems));
-  return refine_mesh_3(std::move(domain), sizing, parameters);
+  std::vector<Input_problem> problems = validate_domain_3(domain);
+  if (!std::ranges::all_of(problems, &Input_problem::is_warning)) throw Input_error(std::move(problems));
+  Refined_mesh_3<K> mesh = refine_mesh_3(std::move(domain), sizing, parameters);
+  mesh.statistics().warnings = std::move(problems);
+  return mesh;
 }
 
 // Compiled in the library, with one engine for both kinds of sizing field: a single size is no boxes.

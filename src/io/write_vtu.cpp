@@ -78,7 +78,7 @@ class Vtu_writer {
     const char* const index_type = wide_ ? "Int64" : "Int32";
     Data_array in_dimension{"UInt8", "in_dimension", 1}, reference{"Int32", "reference", 1};
     Data_array region{"Int32", "region", 1}, ratio{"Float32", "radius_edge_ratio", 1};
-    Data_array angle{"Float32", "min_dihedral_angle", 1}, exempt{"UInt8", "exempt", 1};
+    Data_array angle{"Float32", "min_dihedral_angle", 1}, exempt{"UInt8", "exempt", 1}, unrefined{"UInt8", "unrefined", 1};
     Data_array points{"Float64", "Points", 3};
     Data_array connectivity{index_type, "connectivity", 1}, offsets{index_type, "offsets", 1},
         types{"UInt8", "types", 1};
@@ -92,7 +92,7 @@ class Vtu_writer {
     if (dimensions) declare(in_dimension);
     declare(reference);
     out_.write("</PointData>\n<CellData>\n");
-    for (Data_array* array : {&region, &ratio, &angle, &exempt}) declare(*array);
+    for (Data_array* array : {&region, &ratio, &angle, &exempt, &unrefined}) declare(*array);
     out_.write("</CellData>\n<Points>\n");
     declare(points);
     out_.write("</Points>\n<Cells>\n");
@@ -105,7 +105,7 @@ class Vtu_writer {
                            [&](std::size_t i) { return mesh_.point_dimensions[i]; });
     append<std::int32_t>(reference, mesh_.points.size(),
                          [&](std::size_t i) { return at(mesh_.point_references, i); });
-    append_cell_data(region, ratio, angle, exempt);
+    append_cell_data(region, ratio, angle, exempt, unrefined);
     append<Indexed_mesh_3::Point>(points, mesh_.points.size(),
                                   [&](std::size_t i) { return mesh_.points[i]; });
     if (wide_)
@@ -131,7 +131,7 @@ class Vtu_writer {
   }
 
   void append_cell_data(const Data_array& region, const Data_array& ratio, const Data_array& angle,
-                        const Data_array& exempt) {
+                        const Data_array& exempt, const Data_array& unrefined) {
     const std::size_t count = mesh_.tetrahedra.size();
     const auto measure = [&](std::size_t i, auto function) {
       const auto& t = mesh_.tetrahedra[i];
@@ -145,9 +145,11 @@ class Vtu_writer {
     append<float>(angle, count, [&](std::size_t i) {
       return measure(i, [](const auto&... p) { return smallest_dihedral_angle_deg(p...); });
     });
-    append<std::uint8_t>(exempt, count, [&](std::size_t i) {
-      return std::uint8_t(std::binary_search(mesh_.exempt.begin(), mesh_.exempt.end(), i));
-    });
+    const auto append_marks = [&](const Data_array& array, const std::vector<std::uint32_t>& marked) {
+      append<std::uint8_t>(array, count, [&](std::size_t i) { return std::uint8_t(std::ranges::binary_search(marked, i)); });
+    };
+    append_marks(exempt, mesh_.exempt);
+    append_marks(unrefined, mesh_.unrefined);
   }
 
   template <class Integer>

@@ -165,6 +165,36 @@ TEST_CASE("a seed outside of everything is only worth a warning", "[apps]") {
   }
 }
 
+TEST_CASE("a seed on a facet, an edge or a vertex is an error", "[apps]") {
+  const Sandbox sandbox;
+  sandbox.write("out.mesh", "precious");
+  for (const auto& [point, place] : {std::pair{"0.5,0.5,0", "facet"}, {"0.5,0,0", "segment"}, {"0,0,0", "vertex"}})
+    for (const std::string& seed : {"--hole " + std::string(point), "--region " + std::string(point) + ":7"}) {
+      check_fails(sandbox, "mesh " + shape("cube.poly") + " " + seed + " -o out.mesh", 3, {"lies on", place});
+      check_fails(sandbox, "mesh " + shape("cube.poly") + " " + seed + " -o new.mesh", 3, {"lies on", place});
+    }
+  CHECK(file_text(sandbox / "out.mesh") == "precious");
+}
+
+TEST_CASE("sizes that ask for more than the memory holds are refused before the start", "[apps]") {
+  const Sandbox sandbox;
+  const std::string mesh = "mesh " + shape("cube.poly") + " -o out.mesh ";
+  for (const char* size : {"--size 1e-300", "--size 1e-6", "--size 0.1 --refine-box 0.2,0.2,0.2,0.4,0.4,0.4:1e-6", "--region 0.5,0.5,0.5:3:1e-6"})
+    check_fails(sandbox, mesh + size, 4, {"vertices", "memory", "--max-vertices"});
+  check_fails(sandbox, mesh + "--size 0.01 --max-memory 100M", 4, {"1e+06 vertices", "100 MiB"});
+  // Not what lies outside, and not where it is told to stop.
+  CHECK(sandbox.run(mesh + "--refine-box 5,5,5,6,6,6:1e-6").exit_code == 0);
+  CHECK(sandbox.run(mesh + "--size 1e-6 --max-vertices 500").exit_code == 4);
+  CHECK(std::filesystem::exists(sandbox / "out.mesh"));
+}
+
+TEST_CASE("a refined box outside of the input is worth a warning", "[apps]") {
+  const Sandbox sandbox;
+  const Run run = sandbox.run("mesh --quiet " + shape("cube.poly") + " --refine-box 5,5,5,6,6,6:0.1 -o out.mesh");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.starts_with("pgdr: warning: the refined box from 5,5,5 "));
+}
+
 TEST_CASE("the bad real models", "[apps]") {
   const auto camel = pgdr_test::input_model("a22_bad_camel_selfint.off");
   const auto head = pgdr_test::input_model("a23_bad_head_open.off");

@@ -139,6 +139,38 @@ TEST_CASE("a vertex budget stops the run with exit code 4 and a valid mesh", "[a
   CHECK(check.exit_code == 0);
 }
 
+TEST_CASE("a run that stops before there are tetrahedra leaves the file alone", "[apps]") {
+  const auto elephant = pgdr_test::input_model("a09_elephant.off");
+  if (!elephant) return;
+  const Sandbox sandbox;
+  sandbox.write("keep.mesh", "precious");
+  const Run run = sandbox.run("mesh --quiet " + pgdr_test::quoted(elephant->string()) + " -o keep.mesh --max-vertices 4000");
+  CHECK(run.exit_code == 4);
+  CHECK(run.err.find("nothing was written") != std::string::npos);
+  CHECK(file_text(sandbox / "keep.mesh") == "precious");
+}
+
+TEST_CASE("limits stop the run with exit code 4, say why, and count what is left", "[apps]") {
+  const Sandbox sandbox;
+  const std::string mesh = "mesh " + shape("cube.poly") + " -o out.mesh --stats - ";
+  for (const auto& [limit, reason] : {std::pair{"--size 0.002 --time-limit 0.3 --max-vertices 1000000000", "time_limit"},
+                                      {"--size 0.002 --max-memory 300M --max-vertices 1000000000", "memory_limit"},
+                                      {"--size 0.02 --min-edge-length 0.3", "min_edge_length"},
+                                      {"--size 0.02 --max-vertices 500", "vertex_budget"}}) {
+    const Run run = sandbox.run(mesh + limit);
+    CAPTURE(limit, run.err);
+    CHECK(run.exit_code == 4);
+    CHECK(run.err.starts_with("pgdr: stopped at the "));
+    const json stats = json::parse(run.out);  // and nothing else
+    CHECK(stats["stop"] == reason);
+    CHECK(stats["exempt_tetrahedra"] == 0);
+    CHECK(stats["unrefined_tetrahedra"].get<int>() > 0);
+    CHECK(stats["steiner_vertices"].get<std::size_t>() + 8 == stats["vertices"].get<std::size_t>());
+    CHECK(stats["peak_memory_bytes"].get<double>() < 350e6);
+    CHECK(sandbox.run("check out.mesh --radius-edge-ratio 1e9 --plc " + shape("cube.poly")).exit_code == 0);
+  }
+}
+
 TEST_CASE("Ctrl-C stops the run with exit code 4 and a valid mesh", "[apps]") {
   const Sandbox sandbox;
   const std::string program = pgdr_test::app().string();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/report/format.h>
-#include <pgdr/report/peak_memory.h>
+#include <pgdr/report/memory.h>
 #include <pgdr/report/run_summary.h>
 
 #include <limits>

@@ -33,6 +33,8 @@ TEST_CASE("a command line that is incomplete or unknown", "[apps]") {
   check_fails(sandbox, "mesh " + shape("cube.poly"), 2, {"-o"});
   check_fails(sandbox, "mesh -o out.vtu", 2, {"INPUT"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --fast", 2, {"--fast"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --siez 0.5", 2, {"no option --siez", "did you mean --size?"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --max-memroy=4G", 2, {"did you mean --max-memory?"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " " + shape("cube.poly") + " -o out.vtu", 2,
               {"cube.poly"});
   check_fails(sandbox, "check", 2, {"MESH"});
@@ -56,6 +58,10 @@ TEST_CASE("options of mesh that make no sense", "[apps]") {
     check_fails(sandbox, mesh + "--threads=" + value, 2, {"--threads", "1024", value});
     check_fails(sandbox, std::string("check out.mesh --threads=") + value, 2, {"--threads", "1024", value});
   }
+  for (const char* value : {"0", "much", "-4G", "1e9", "4 elephants"})
+    check_fails(sandbox, mesh + "--max-memory=" + pgdr_test::quoted(value), 2, {"--max-memory", value});
+  for (const char* value : {"0", "-1", "soon", "inf"}) check_fails(sandbox, mesh + "--time-limit=" + value, 2, {"--time-limit"});
+  for (const char* value : {"0", "8", "50"}) check_fails(sandbox, mesh + "--octree-depth " + value, 2, {"--octree-depth"});
   check_fails(sandbox, mesh + "--nested sometimes", 2, {"--nested"});
   check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,1", 2, {"--refine-box"});
   check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,0:0.1", 2, {"--refine-box", "empty"});

@@ -121,7 +121,39 @@ TEST_CASE("seeds that lie nowhere") {
   const auto problems = validate_domain_3(make_domain_3(plc));
   REQUIRE(problems.size() == 2);
   CHECK(problems[0].kind == Kind::bad_seed);
-  CHECK(problems[0].message == "hole seed 1 at (2, 2, 2) lies in no enclosed volume");
+  CHECK(problems[0].message == "hole seed 1 at (2, 2, 2) lies in no enclosed volume and is left out");
+  CHECK(std::ranges::all_of(problems, &pgdr::Input_problem::is_warning));
+}
+
+TEST_CASE("seeds on facets, segments and vertices are errors that name them") {
+  for (const auto& [point, place] : {std::pair<pgdr::Default_kernel::Point_3, const char*>{{0.5, 0.25, 0}, "lies on facet "},
+                                     {{0, 0.3, 0}, "lies on the segment between vertices "},
+                                     {{1, 1, 1}, "lies on vertex "}}) {
+    Plc plc = box();
+    plc.holes.push_back(point);
+    plc.regions.push_back({point, 1, 0});
+    const auto problems = validate_domain_3(make_domain_3(plc));
+    CAPTURE(place);
+    REQUIRE(problems.size() == 2);
+    for (const auto& problem : problems) {
+      CHECK(problem.kind == Kind::ambiguous_seed);
+      CHECK_FALSE(problem.is_warning());
+      CHECK(problem.message.find(place) != std::string::npos);
+      CHECK(problem.facets.size() == 1);
+    }
+  }
+  // As near as doubles can be, but inside: no rounding, no tolerance.
+  Plc plc = box();
+  plc.regions.push_back({{0.5, 0.5, 5e-324}, 1, 0});
+  CHECK(validate_domain_3(make_domain_3(plc)).empty());
+}
+
+TEST_CASE("a facet that is given twice is called identical") {
+  Plc plc = box();
+  plc.facets.push_back(plc.facets.front());
+  const auto problems = validate_domain_3(make_domain_3(plc));
+  REQUIRE_FALSE(problems.empty());
+  CHECK(problems[0].message.find("are identical") != std::string::npos);
 }
 
 TEST_CASE("the summary of a domain") {

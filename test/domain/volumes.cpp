@@ -156,13 +156,15 @@ TEST_CASE("shells that touch in a vertex or an edge") {
   CHECK(v.total_material_volume() == Approx(3));
 }
 
-TEST_CASE("seeds outside are told") {
+TEST_CASE("seeds outside and on facets are told") {
   Plc plc = box();
   plc.holes.emplace_back(5, 5, 5);
   plc.regions.push_back({{0.5, 0.5, 1}, 1, 0});
   const auto v = volumes_3(make_domain_3(plc));
-  CHECK(v.stray_holes() == std::vector<std::size_t>{0});
-  CHECK(v.stray_regions() == std::vector<std::size_t>{0});
+  REQUIRE(v.lost_holes().size() == 1);
+  CHECK(v.lost_holes()[0].facet == v.none);
+  REQUIRE(v.lost_regions().size() == 1);
+  CHECK(v.lost_regions()[0].facet != v.none);
 }
 
 TEST_CASE("an open surface encloses nothing") {

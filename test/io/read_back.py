@@ -44,7 +44,7 @@ def check_with_meshio(arguments):
             sys.exit(f"volume: {volumes.sum()}, expected {expected}")
     if arguments.mesh.endswith(".vtu"):
         data = {name: values[0] for name, values in mesh.cell_data.items()}
-        expect("cell data", sorted(data), ["exempt", "min_dihedral_angle", "radius_edge_ratio", "region"])
+        expect("cell data", sorted(data), ["exempt", "min_dihedral_angle", "radius_edge_ratio", "region", "unrefined"])
         expect("point data", "reference" in mesh.point_data, True)
         if len(tetrahedra):
             ratios = data["radius_edge_ratio"]
@@ -75,7 +75,7 @@ def check_with_vtk(arguments):
     for cell in {0, grid.GetNumberOfCells() - 1} if arguments.tetrahedra else ():
         expect("cell type", grid.GetCellType(cell), vtk_tetra)
     names = [grid.GetCellData().GetArrayName(i) for i in range(grid.GetCellData().GetNumberOfArrays())]
-    expect("cell data in VTK", sorted(names), ["exempt", "min_dihedral_angle", "radius_edge_ratio", "region"])
+    expect("cell data in VTK", sorted(names), ["exempt", "min_dihedral_angle", "radius_edge_ratio", "region", "unrefined"])
 
 
 def main():

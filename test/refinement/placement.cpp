@@ -44,13 +44,6 @@ std::size_t slivers(const pgdr::Indexed_mesh_3& mesh) {
   return n;
 }
 
-double shortest_edge(const pgdr::Indexed_mesh_3& mesh) {
-  double squared = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    squared = std::min(squared, pgdr::squared_shortest_edge(corners(mesh, t)));
-  return std::sqrt(squared);
-}
-
 constexpr double any_size = std::numeric_limits<double>::infinity();
 const Sized_shape sized_shapes[] = {{"cube.poly", 0.08},          {"l_block.poly", 0.2},           {"cavity.poly", 0.4},
                         {"two_regions.poly", 0.2},    {"plate_with_hole.poly", 0.3},   {"plate_with_hole.poly", any_size},

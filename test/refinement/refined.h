@@ -3,7 +3,9 @@
 #ifndef PGDR_TEST_REFINEMENT_REFINED_H
 #define PGDR_TEST_REFINEMENT_REFINED_H
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -59,6 +61,16 @@ std::size_t oversized(const pgdr::Indexed_mesh_3& mesh, const Sizing& sizing) {
     count += CGAL::squared_distance(c, p[0]) > size * size;
   }
   return count;
+}
+
+/// Of all edges of tetrahedra.
+inline double shortest_edge(const pgdr::Indexed_mesh_3& mesh) {
+  double squared = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.tetrahedra) {
+    const auto corner = [&](std::size_t i) { return pgdr::to_vec(mesh.points[t[i]]); };
+    squared = std::min(squared, pgdr::squared_shortest_edge({corner(0), corner(1), corner(2), corner(3)}));
+  }
+  return std::sqrt(squared);
 }
 
 /// Whether two meshes are the same, number by number.

@@ -14,6 +14,13 @@
 
 namespace pgdr {
 
+/// Whether a point may come as close to the vertices around it as it would.
+enum class Spacing : std::uint8_t {
+  wide_enough,
+  too_close,     ///< next to a small angle
+  below_minimum  ///< closer than the minimum edge length
+};
+
 /// How close to other vertices a point on a feature may be.
 ///
 /// Vertices that are near only because their feature and the point's meet at a small angle do not count: the two features
@@ -50,17 +57,17 @@ class Split_spacing_3 {
   /// Whether a point at this squared distance from a vertex is too close to it, whoever asks for the point.
   bool is_below_minimum(double squared_distance) const { return squared_distance < squared_min_edge_; }
 
-  /// Whether m, the split point of a piece with these vertices and this radius, is not to be inserted.
-  bool is_too_close(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason,
-                    const Split_guard& guard, double radius) const {
+  /// Whether m, the split point of a piece with these vertices and this radius, is to be inserted.
+  Spacing spacing(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason,
+                  const Split_guard& guard, double radius) const {
     const double d2 = cavity.squared_insertion_radius(m);
-    if (is_below_minimum(d2)) return true;
+    if (is_below_minimum(d2)) return Spacing::below_minimum;
     const double floor2 = squared_floor(vertices, guard);
-    if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return false;
-    return is_near_angle(m, guard, radius);
+    if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return Spacing::wide_enough;
+    return is_near_angle(m, guard, radius) ? Spacing::too_close : Spacing::wide_enough;
   }
 
-  /// Whether that is certain from the vertices of the piece alone, which count always: where the mesh is not graded, the cavity of a
+  /// Whether it is certainly too close, by the vertices of the piece alone, which count always: where the mesh is not graded, the cavity of a
   /// point has tens of thousands of tetrahedra, and as many vertices ask for the same split.
   bool is_too_close(const Vec_3& m, const auto& vertices, Split_reason reason, const Split_guard& guard, double radius) const {
     if (reason == Split_reason::missing) return false;

@@ -118,6 +118,9 @@ class Feature_refiner_3 {
   /// Missing pieces that cannot be split in this region. The caller empties it.
   Feature_queues& stranded() { return stranded_; }
   const Split_elsewhere& elsewhere() const { return elsewhere_; }
+  /// Whether a split was refused for the minimum edge length since this was asked last.
+  bool has_met_minimum() { return std::exchange(met_minimum_, false); }
+  const Split_spacing_3<Tr>& spacing() const { return spacing_; }
 
   /// Radius of the piece that `step` would split, 0 if it is gone; infinite if it is missing, or anything is torn, so that nothing else
   /// may come first. \pre not idle
@@ -156,7 +159,7 @@ class Feature_refiner_3 {
     const Point p(m.x, m.y, m.z);
     if (const auto r = search_.from_subsegment(p, s); r != Search_result::found)
       return blocked(r == Search_result::foreign, m, complex_.subsegment_id(slot), true);
-    if (spacing_.is_too_close(cavity_, m, {1, s.segment}, s.vertices, reason, guard, radius)) {
+    if (!is_wide_enough(m, {1, s.segment}, s.vertices, reason, guard, radius)) {
       if (is_plain && guard.reach == 0) s.refused_floor = std::min(s.refused_floor, guard.floor);
       return abandon();
     }
@@ -377,7 +380,7 @@ class Feature_refiner_3 {
         cavity_.abandon();
         return give_way(f.slot);
       }
-    if (spacing_.is_too_close(cavity_, m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
+    if (!is_wide_enough(m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
       return abandon();
     const Vertex_handle v = insert_on_facet(at.subfacet, p, m, guard);
@@ -420,6 +423,12 @@ class Feature_refiner_3 {
   }
 
   const Territory_3<Tr>& territory() const { return cavity_.territory(); }
+
+  bool is_wide_enough(const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason, const Split_guard& guard, double radius) {
+    const Spacing spacing = spacing_.spacing(cavity_, m, on, vertices, reason, guard, radius);
+    met_minimum_ = met_minimum_ || spacing == Spacing::below_minimum;
+    return spacing == Spacing::wide_enough;
+  }
 
   Split_outcome abandon() {
     cavity_.abandon();
@@ -576,6 +585,7 @@ class Feature_refiner_3 {
   Feature_queues stranded_;
   std::vector<std::pair<Vec_3, std::unique_ptr<Errand>>> outgoing_;
   Split_elsewhere elsewhere_;
+  bool met_minimum_ = false;
   std::vector<Cell_id> fresh_cells_;
   std::vector<Cell_id> unlabelled_cells_;
   Piece_id last_way_;  ///< the subsegment that was split, or refused, in the place of a subfacet, within the same task

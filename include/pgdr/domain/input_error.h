@@ -23,13 +23,17 @@ struct Input_problem {
     self_intersection,  ///< two facets meet other than in common vertices and segments
     open_surface,       ///< nothing is enclosed
     empty,              ///< no facets, or no volume left after holes
-    bad_seed            ///< a hole or region seed outside of every enclosed volume
+    bad_seed,           ///< a hole or region seed outside of every enclosed volume; left out
+    ambiguous_seed      ///< a hole or region seed on a facet
   };
   Kind kind;
   /// One sentence that names the file, the line or the facet, in the numbering of the input file.
   std::string message;
   std::vector<Index> facets = {};  ///< input facets, 0-based
   std::vector<Index> vertices = {};  ///< input vertices, 0-based
+
+  /// Whether the input can be meshed all the same.
+  bool is_warning() const { return kind == Kind::bad_seed; }
 };
 
 /// Thrown for input that cannot be meshed; `what()` is the first problem's message.

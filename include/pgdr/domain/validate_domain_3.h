@@ -70,8 +70,12 @@ void report_intersections(const Domain_3<K>& domain, std::size_t max_pairs,
   }
   for (const auto& [facets, triangles] : triangles_of_facets) {
     std::string message = "facets " + std::to_string(facets[0] + domain.first_index) + " and " +
-                          std::to_string(facets[1] + domain.first_index) + " intersect";
-    if (found.size() < max_pairs) message += " at " + write.point(finder.common_point(triangles[0], triangles[1]));
+                          std::to_string(facets[1] + domain.first_index);
+    const auto& one = domain.facets[soup.facet[triangles[0]]];
+    const auto& other = domain.facets[soup.facet[triangles[1]]];
+    const bool are_identical = one.vertices == other.vertices && one.segments == other.segments;
+    message += are_identical ? " are identical" : " intersect";
+    if (!are_identical && found.size() < max_pairs) message += " at " + write.point(finder.common_point(triangles[0], triangles[1]));
     found.push_back({kind, message, {facets[0], facets[1]}, {}});
   }
 
@@ -145,6 +149,20 @@ void report_open_edges(const Domain_3<K>& domain, std::size_t most, std::vector<
   if (found > 1) problems.back().message += " (" + std::to_string(found) + " such edges in all)";
 }
 
+/// Names what a point on a facet lies on: a vertex, a segment, or just the facet.
+template <class K>
+std::string feature_at(const Domain_3<K>& domain, Index facet, const typename K::Point_3& p) {
+  const Problem_writer<K> write(domain);
+  const auto& f = domain.facets[facet];
+  for (const Index v : f.vertices)
+    if (domain.vertices[v] == p) return write.vertex_name(v);
+  for (const Index s : f.segments) {
+    const auto& ends = domain.segments[s].vertices;
+    if (typename K::Segment_3(domain.vertices[ends[0]], domain.vertices[ends[1]]).has_on(p)) return write.segment_name(ends);
+  }
+  return write.facet_name(facet);
+}
+
 /// What the volumes have wrong; only meaningful where nothing intersects.
 template <class K>
 void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std::size_t most,
@@ -154,12 +172,20 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std:
     report_open_edges(domain, most, problems);
     return;
   }
-  const auto stray = [&](const char* what, std::size_t i, const auto& point) {
-    problems.push_back({Kind::bad_seed, what + std::to_string(i + 1) + " at " +
-                                            Problem_writer<K>::point(point) + " lies in no enclosed volume"});
+  const auto lost = [&](const char* what, const auto& seed, const auto& point) {
+    const std::string name = what + std::to_string(seed.seed + 1) + " at " + Problem_writer<K>::point(point);
+    if (seed.facet == Volumes_3<K>::none) {
+      problems.push_back({Kind::bad_seed, name + " lies in no enclosed volume and is left out"});
+      return;
+    }
+    const auto facet = static_cast<Index>(seed.facet);
+    problems.push_back({Kind::ambiguous_seed,
+                        name + " lies on " + feature_at(domain, facet, point) + ", so that it names no volume",
+                        {Problem_writer<K>(domain).input_facet(facet)},
+                        {}});
   };
-  for (std::size_t i : volumes.stray_holes()) stray("hole seed ", i, domain.holes[i]);
-  for (std::size_t i : volumes.stray_regions()) stray("region seed ", i, domain.regions[i].point);
+  for (const auto& seed : volumes.lost_holes()) lost("hole seed ", seed, domain.holes[seed.seed]);
+  for (const auto& seed : volumes.lost_regions()) lost("region seed ", seed, domain.regions[seed.seed].point);
   if (std::none_of(volumes.volumes().begin(), volumes.volumes().end(),
                    [](const Volume& v) { return v.material; }))
     problems.push_back({Kind::empty, "every enclosed volume is a hole, so that nothing is left to mesh"});
@@ -170,8 +196,8 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std:
 /// Looks for what makes a domain impossible to mesh.
 ///
 /// `self_intersection`: facets, segments or vertices that meet other than in common vertices and segments;
-/// `open_surface`: no volume is enclosed; `empty`: no facets, or no material; `bad_seed`: a hole or region
-/// seed outside of every enclosed volume. Volumes are judged only where nothing intersects. Facets go by the
+/// `open_surface`: no volume is enclosed; `empty`: no facets, or no material; `ambiguous_seed`: a hole or region seed on a
+/// facet; `bad_seed`: one outside of every enclosed volume, which is only a warning: it is left out. Volumes are judged only where nothing intersects. Facets go by the
 /// number of the first input facet that they were fused from.
 /// \param max_pairs number of intersecting pairs, or of open edges, to name; the last one's message gives the total.
 template <class K>

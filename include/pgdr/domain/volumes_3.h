@@ -58,19 +58,26 @@ class Volumes_3 {
   const std::vector<Volume>& volumes() const { return volumes_; }
 
   /// Index of the volume that holds `p`; `none` when it lies on a facet.
-  std::size_t locate(const typename K::Point_3& p) const {
+  std::size_t locate(const typename K::Point_3& p) const { return find(p).volume; }
+
+  /// Where a point is.
+  struct Location {
+    std::size_t volume = none;  ///< `none` on a facet
+    std::size_t facet = none;   ///< that it lies on, if it does
+  };
+  Location find(const typename K::Point_3& p) const {
     using Outcome = domain_detail::Ray_caster::Outcome;
     const Vec_3 source = to_vec(p);
     for (std::size_t attempt = 0; attempt < 64; ++attempt) {
       const Vec_3 target =
           source + (diagonal_ > 0 ? diagonal_ : 1) * domain_detail::scattered_direction(attempt);
       const auto ray = rays_.cast(domain_detail::to_work_point(source), domain_detail::to_work_point(target));
-      if (ray.outcome == Outcome::starts_on_triangle) return none;
+      if (ray.outcome == Outcome::starts_on_triangle) return {none, soup_.facet[ray.hits[0].triangle]};
       if (ray.outcome == Outcome::degenerate) continue;
-      if (ray.hits.empty()) return 0;
-      return volume_of_side(ray.hits[0].triangle, ray.hits[0].from_front);
+      if (ray.hits.empty()) return {0, none};
+      return {volume_of_side(ray.hits[0].triangle, ray.hits[0].from_front), none};
     }
-    return none;
+    return {};
   }
 
   /// The volume in front of (where the normal points to) or behind a triangle of a facet.
@@ -114,10 +121,13 @@ class Volumes_3 {
     return total;
   }
 
-  /// Positions in `Domain_3::holes` and `Domain_3::regions` of seeds in no enclosed volume (outside, or on a
-  /// facet).
-  const std::vector<std::size_t>& stray_holes() const { return stray_holes_; }
-  const std::vector<std::size_t>& stray_regions() const { return stray_regions_; }
+  /// A seed that names no volume: outside, or on a facet.
+  struct Lost_seed {
+    std::size_t seed;   ///< position in `Domain_3::holes` or `Domain_3::regions`
+    std::size_t facet;  ///< that it lies on; `none`: it is outside
+  };
+  const std::vector<Lost_seed>& lost_holes() const { return lost_holes_; }
+  const std::vector<Lost_seed>& lost_regions() const { return lost_regions_; }
 
  private:
   std::size_t volume_of_side(std::size_t triangle, bool front) const {
@@ -226,18 +236,18 @@ class Volumes_3 {
   void apply_seeds(const Domain_3<K>& domain) {
     std::set<int> taken;
     for (std::size_t i = 0; i < domain.holes.size(); ++i) {
-      const std::size_t v = locate(domain.holes[i]);
+      const auto [v, facet] = find(domain.holes[i]);
       if (v == none || v == 0)
-        stray_holes_.push_back(i);
+        lost_holes_.push_back({i, facet});
       else
         volumes_[v].is_hole = true;
     }
     for (std::size_t i = 0; i < domain.regions.size(); ++i) {
       const auto& region = domain.regions[i];
       taken.insert(region.id);
-      const std::size_t v = locate(region.point);
+      const auto [v, facet] = find(region.point);
       if (v == none || v == 0) {
-        stray_regions_.push_back(i);
+        lost_regions_.push_back({i, facet});
       } else if (!volumes_[v].has_region) {  // the first seed of a volume counts
         volumes_[v].has_region = true;
         volumes_[v].region_id = region.id;
@@ -262,8 +272,8 @@ class Volumes_3 {
   Vec_3 middle_;
   std::vector<Volume> volumes_;
   std::vector<Index> side_volume_;
-  std::vector<std::size_t> stray_holes_;
-  std::vector<std::size_t> stray_regions_;
+  std::vector<Lost_seed> lost_holes_;
+  std::vector<Lost_seed> lost_regions_;
 };
 
 /// The volumes of a domain, with the material among them decided by seeds and nesting.

@@ -11,7 +11,8 @@ namespace pgdr {
 /// Writes the tetrahedra as a VTK XML unstructured grid, appended raw binary, zlib-compressed.
 ///
 /// Cell data: `region` (Int32), `radius_edge_ratio` and `min_dihedral_angle` in degrees (Float32: for looking
-/// at, not for checking a bound), `exempt` (UInt8, 1 for the cells in `mesh.exempt`).
+/// at, not for checking a bound), `exempt` and `unrefined` (UInt8, 1 for the cells in
+/// `mesh.exempt` and `mesh.unrefined`).
 /// Point data: `reference` (Int32) and, unless `point_dimensions` is empty, `in_dimension` (UInt8).
 /// Coordinates are Float64. Memory beside the mesh: a few blocks of 64 KiB for each thread of the
 /// caller's arena, all of which work; the bytes do not depend on how many there are.

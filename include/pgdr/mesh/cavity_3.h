@@ -204,7 +204,7 @@ class Cavity_3 {
         c->advance_generation();
         c->tds_data().clear();
         c->ball().forget();
-        c->set_poor(false);
+        c->set_state(Cell_state::good);
       } else {
         c = tr_->tds().create_cell();
         if (guard_) guard_->adopt(c);

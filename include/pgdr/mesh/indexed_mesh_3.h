@@ -26,7 +26,10 @@ struct Indexed_mesh_3 {
 
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
   std::vector<std::int32_t> tetrahedron_references;  ///< region id
-  std::vector<std::uint32_t> exempt;                 ///< ascending positions in `tetrahedra` of those over the ratio bound; not in `.mesh`
+  /// Ascending positions in `tetrahedra`, neither of them in `.mesh`: of those over the ratio bound next to small angles of the input,
+  std::vector<std::uint32_t> exempt;
+  /// and of those over a bound, of ratio or size, that a limit or a cancelled run left.
+  std::vector<std::uint32_t> unrefined;
 };
 
 }  // namespace pgdr

@@ -23,6 +23,14 @@ constexpr std::uint8_t edges_at(int i) {
   return bits[i];
 }
 
+/// How far the refinement is with a cell.
+enum class Cell_state : std::uint8_t {
+  good = 0,      ///< within all bounds, or not looked at
+  poor = 64,     ///< to be split: it is on the worklist of some leaf
+  exempt = 128,  ///< poor, and given up next to a small angle
+  limited = 192  ///< poor, and given up since edges would be shorter than the minimum
+};
+
 /// Cell of the mesh: its subdomain, which of its facets are subfacets and which of its edges subsegments.
 ///
 /// `generation()` tells whether a remembered cell is still the same tetrahedron: it changes whenever the slot
@@ -60,11 +68,12 @@ class Mesh_cell_base_3 : public Cb {
 
   /// Set of `edge_bit`s of the edges that are subsegments.
   std::uint8_t subsegment_edges() const { return flags_ & all_edges; }
-  void set_subsegment_edges(std::uint8_t e) { flags_ = static_cast<std::uint8_t>((flags_ & poor) | e); }
+  void set_subsegment_edges(std::uint8_t e) { flags_ = static_cast<std::uint8_t>((flags_ & ~all_edges) | e); }
 
+  Cell_state state() const { return static_cast<Cell_state>(flags_ & ~all_edges); }
+  void set_state(Cell_state s) { flags_ = static_cast<std::uint8_t>((flags_ & all_edges) | static_cast<std::uint8_t>(s)); }
   /// Whether it is known to be poor, so that it is on the worklist of some leaf or was given up.
-  bool is_poor() const { return flags_ & poor; }
-  void set_poor(bool p) { flags_ = static_cast<std::uint8_t>((flags_ & all_edges) | (p ? poor : 0)); }
+  bool is_poor() const { return state() != Cell_state::good; }
 
   unsigned int generation() const { return atomic_generation().load(std::memory_order_relaxed); }
   void advance_generation() { set_erase_counter(generation() + 1); }
@@ -84,7 +93,7 @@ class Mesh_cell_base_3 : public Cb {
  private:
   std::atomic_ref<unsigned int> atomic_generation() const { return std::atomic_ref<unsigned int>(generation_); }
 
-  static constexpr std::uint8_t all_edges = 63, poor = 64;
+  static constexpr std::uint8_t all_edges = 63;
 
   // With what the base leaves of its last eight bytes, the first three fill them: another byte would cost eight.
   std::uint8_t flags_ = 0;

@@ -45,7 +45,7 @@ Mesh_quality mesh_quality(const Indexed_mesh_3& mesh);
 
 /// 64 bits that stand for the points, edges, triangles and tetrahedra of `mesh` and their references, bit by
 /// bit and in order: equal for equal arrays on every machine with IEEE doubles and for every number of threads, and
-/// different (but for a chance of about 2^-64) as soon as one bit differs or two items change places. `exempt` and
+/// different (but for a chance of about 2^-64) as soon as one bit differs or two items change places. `exempt`, `unrefined` and
 /// `point_dimensions` are left out: they follow from the rest, and a mesh that was read back from a `.mesh` file lacks
 /// them.
 ///

@@ -399,7 +399,7 @@ class Delaunay_leaf_refiner_3 {
     const double r = std::sqrt(ball.squared_radius);
     c->ball().set(ball.center, r, ball_error);
     const float radius = upwards * static_cast<float>(r);
-    c->set_poor(criteria_.is_poor(ball, c->subdomain()));
+    c->set_state(criteria_.is_poor(ball, c->subdomain()) ? Cell_state::poor : Cell_state::good);
     if (c->is_poor())
       list.add_poor({c, c->generation(), radius}, w.task_.target, is_steep(ball));
     else
@@ -480,10 +480,24 @@ class Delaunay_leaf_refiner_3 {
     return t;
   }
 
-  void give_up(const Attempt& t, Worklist& list, Drain_result& result) const {
+  void give_up(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) const {
     const float m = upwards * static_cast<float>(enclosing_radius(t.corners));
     list.note_refused(t.at, {t.id.cell, t.id.generation, m});
     ++result.refused;
+    const bool met_minimum = w.features_.has_met_minimum();
+    if (t.is_outside()) return;
+    const bool limited = is_limited(t, met_minimum);
+    t.id.cell->set_state(limited ? Cell_state::limited : Cell_state::exempt);
+    result.limited += limited;
+  }
+
+  /// Whether it is the minimum edge length l that a tetrahedron is given up for, and no small angle. Its circumcenter is its radius r
+  /// away from all vertices; in the ball of a subfacet, it is at most sqrt(2) times as far from one of its corners as their own
+  /// distance to the split point, and the same again if that is in the ball of a subsegment. So where nothing but the vertices of
+  /// such a piece is within l of its split point, r < 2 l. Where something else is, the refusal was noticed (`met_minimum`).
+  bool is_limited(const Attempt& t, bool met_minimum) const {
+    if (!met_minimum && t.ball.squared_radius >= 4 * min_edge_length_ * min_edge_length_) return false;
+    return !acute_.contains(t.at, 4 * std::sqrt(t.ball.squared_radius));
   }
 
   /// To whom the Steiner point belongs.
@@ -509,7 +523,7 @@ class Delaunay_leaf_refiner_3 {
     if (w.task_.territory != 0 && is_steep(t.ball)) return hand_on(t, list);
     const bool is_too_large = criteria_.is_over_size(t.ball, t.id.cell->subdomain());
     if (!is_too_large && is_hopeless(t.id.cell, t.ball, t.corners, criteria_.radius_edge_ratio(), acute_.narrow()))
-      return give_up(t, list, result);
+      return give_up(w, t, list, result);
     Trial trial = try_point(w, t, list, result);
     if (trial == Trial::no_room && criteria_.is_over_ratio(t.ball)) {
       // What may not be split can be far away, where large tetrahedra next to an angle have to stay. No vertex is closer to this
@@ -519,9 +533,28 @@ class Delaunay_leaf_refiner_3 {
     } else if (trial == Trial::clear) {
       if constexpr (ChoosingPlacement<Placement>) choose_point(w, t);
     }
+    if (trial == Trial::clear && !keeps_minimum(w, t)) {
+      // No point of the ball is farther from all vertices than its center.
+      t.at = hull_.pull_in(t.ball.center, t.corners);
+      trial = w.task_.region.contains(t.at) ? try_point(w, t, list, result) : Trial::no_room;
+      if (trial == Trial::clear && !keeps_minimum(w, t)) trial = Trial::no_room;
+    }
     if (trial == Trial::clear) insert(w, t, list, result);
-    if (trial == Trial::no_room) give_up(t, list, result);
+    if (trial == Trial::no_room) give_up(w, t, list, result);
   }
+
+  /// Whether the Steiner point, whose cavity is found, comes no closer to a vertex than the minimum edge length; abandons the cavity if not.
+  bool keeps_minimum(Worker& w, const Attempt& t) const {
+    const Split_spacing_3<Tr>& spacing = w.features_.spacing();
+    Cavity_3<Tr>& cavity = w.features_.cavity();
+    const double distance = least_distance(t);
+    if (!spacing.is_below_minimum(distance * distance) || !spacing.is_below_minimum(cavity.squared_insertion_radius(t.at))) return true;
+    cavity.abandon();
+    return false;
+  }
+
+  /// A bound of the distance from the Steiner point to all vertices: the circumball is empty.
+  static double least_distance(const Attempt& t) { return std::sqrt(t.ball.squared_radius) - length(t.at - t.ball.center); }
 
   enum class Trial : std::uint8_t {
     clear,   ///< the Steiner point's cavity is found, and may be filled
@@ -534,7 +567,7 @@ class Delaunay_leaf_refiner_3 {
     Cavity_3<Tr>& cavity = w.features_.cavity();
     const Cell_handle c = t.id.cell;
     const auto hand_on_or_give_up = [&] {
-      cavity.is_foreign() ? hand_on(t, list) : give_up(t, list, result);
+      cavity.is_foreign() ? hand_on(t, list) : give_up(w, t, list, result);
       return Trial::done;
     };
     // What lies behind a facet need not be searched at all.
@@ -613,9 +646,9 @@ class Delaunay_leaf_refiner_3 {
     switch (find_outside(w, t)) {
       case Obstruction::none: insert(w, t, list, result); break;
       case Obstruction::splits_anyway:
-        if (!make_room(w, t, list, result)) give_up(t, list, result);
+        if (!make_room(w, t, list, result)) give_up(w, t, list, result);
         break;
-      case Obstruction::stays: give_up(t, list, result); break;
+      case Obstruction::stays: give_up(w, t, list, result); break;
       case Obstruction::foreign: hand_on(t, list); break;
     }
   }
@@ -656,8 +689,7 @@ class Delaunay_leaf_refiner_3 {
   /// Inserts the Steiner point. \pre its cavity is found
   void insert(Worker& w, const Attempt& t, Worklist& list, Drain_result& result) {
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    const double distance = std::sqrt(t.ball.squared_radius) - length(t.at - t.ball.center);
-    const double radius = std::max(distance, inherited_radius(t.id.cell, t.ball, t.corners));
+    const double radius = std::max(least_distance(t), inherited_radius(t.id.cell, t.ball, t.corners));
     const Vertex_handle v = cavity.commit(t.point());
     v->set_feature(3, Tr::Vertex::none);
     v->set_insertion_radius(radius);
@@ -793,7 +825,7 @@ class Delaunay_leaf_refiner_3 {
         return true;
       }
       if (guard.gives_up_at_once()) {
-        give_up(t, list, result);
+        give_up(w, t, list, result);
         return true;
       }
       if (!is_known) t.tried.refused.push_back(piece);

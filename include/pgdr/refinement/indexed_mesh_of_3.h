@@ -64,6 +64,7 @@ class Indexed_mesh_builder_3 {
         .sort(ids_, out.tetrahedra, out.tetrahedron_references);
     sort_elements(triangles_, number, out.triangles, out.triangle_references);
     sort_elements(edges_, number, out.edges, out.edge_references);
+    find_unrefined(out, number);
     find_exempt(out);
     return out;
   }
@@ -111,9 +112,10 @@ class Indexed_mesh_builder_3 {
     struct Part {
       Tetrahedron_pool::Run run;
       std::vector<Element<3>> triangles;
+      std::vector<std::array<std::uint32_t, 4>> unrefined;
     };
     const auto gather = [&](std::size_t position, auto it, std::size_t count) {
-      Part part{{position, 0}, {}};
+      Part part{{position, 0}, {}, {}};
       // The vertices lie anywhere in memory: they are called for some cells before they are looked at.
       std::array<Cell_handle, 16> cells;
       while (count > 0) {
@@ -126,6 +128,9 @@ class Indexed_mesh_builder_3 {
         }
         for (std::size_t i = 0; i < n; ++i) {
           gather_cell(cells[i], position + part.run.count++);
+          const Cell_state state = cells[i]->state();
+          if (state == Cell_state::poor || state == Cell_state::limited)
+            part.unrefined.push_back(pool_->vertices[part.run.position + part.run.count - 1]);
           if (cells[i]->has_subfacet()) gather_subfacets(mesh, cells[i], part.triangles);
         }
       }
@@ -134,6 +139,7 @@ class Indexed_mesh_builder_3 {
     for (Part& part : parallel_walk(tr.all_cells_begin(), tr.all_cells_end(), default_grain, gather)) {
       pool_->runs.push_back(part.run);
       triangles_.insert(triangles_.end(), part.triangles.begin(), part.triangles.end());
+      unrefined_.insert(unrefined_.end(), part.unrefined.begin(), part.unrefined.end());
     }
   }
 
@@ -236,7 +242,17 @@ class Indexed_mesh_builder_3 {
     elements = {};
   }
 
-  /// Lists the tetrahedra over the ratio bound.
+  /// Finds again what was left poor. \pre the tetrahedra are in canonical order
+  void find_unrefined(Indexed_mesh_3& out, const std::vector<std::uint32_t>& number) {
+    for (const auto& [a, b, c, d] : unrefined_) {
+      const auto t = canonical(std::array{number[a], number[b], number[c], number[d]});
+      out.unrefined.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(out.tetrahedra, t) - out.tetrahedra.begin()));
+    }
+    unrefined_ = {};
+    parallel_sort(out.unrefined.begin(), out.unrefined.end());
+  }
+
+  /// Lists the other tetrahedra over the ratio bound.
   void find_exempt(Indexed_mesh_3& out) const {
     out.exempt = parallel_collect(out.tetrahedra.size(), default_grain, [&](std::size_t first, std::size_t last) {
       std::vector<std::uint32_t> exempt;
@@ -244,7 +260,8 @@ class Indexed_mesh_builder_3 {
         const auto& t = out.tetrahedra[i];
         const Tetrahedron_ball b = tetrahedron_ball(
             {to_vec(out.points[t[0]]), to_vec(out.points[t[1]]), to_vec(out.points[t[2]]), to_vec(out.points[t[3]])});
-        if (b.squared_radius > squared_bound_ * b.squared_shortest) exempt.push_back(static_cast<std::uint32_t>(i));
+        if (b.squared_radius > squared_bound_ * b.squared_shortest && !std::ranges::binary_search(out.unrefined, i))
+          exempt.push_back(static_cast<std::uint32_t>(i));
       }
       return exempt;
     });
@@ -261,6 +278,7 @@ class Indexed_mesh_builder_3 {
   std::vector<std::uint8_t> used_;      ///< whether a meshed cell has it
   std::vector<std::uint32_t> corners_;  ///< by domain vertex
   std::optional<Tetrahedron_pool> pool_;
+  std::vector<std::array<std::uint32_t, 4>> unrefined_;
   std::vector<Element<3>> triangles_;
   std::vector<Element<2>> edges_;
 };

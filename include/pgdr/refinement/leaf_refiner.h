@@ -37,6 +37,7 @@ struct Leaf_task {
 struct Drain_result {
   std::size_t inserted = 0;  ///< points, on features and in the volume
   std::size_t refused = 0;   ///< poor elements that were given up
+  std::size_t limited = 0;   ///< those of them that were at the minimum edge length
   bool stopped = false;      ///< by quota or cancellation, before the worklist was empty
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/input_error.h>
 #include <pgdr/report/schedule_statistics.h>
 
 namespace pgdr {
@@ -16,7 +17,9 @@ namespace pgdr {
 enum class Stop_reason {
   finished,         ///< nothing poor is left but exempt tetrahedra
   vertex_budget,    ///< `Parameters::max_vertices`
-  min_edge_length,  ///< a missing piece of the input could only be recovered with shorter edges
+  min_edge_length,  ///< a piece of the input could only be recovered, or a tetrahedron only be refined, with shorter edges
+  memory_limit,     ///< `Parameters::max_memory`
+  time_limit,       ///< `Parameters::time_limit`
   cancelled         ///< `Parameters::cancel`
 };
 
@@ -24,7 +27,8 @@ enum class Stop_reason {
 struct Run_statistics {
   Stop_reason stop = Stop_reason::finished;
   std::string stop_message;            ///< one sentence when `stop` is not `finished`
-  std::size_t steiner_points = 0;
+  std::vector<Input_problem> warnings;  ///< of the PLC: what was left out
+  std::size_t steiner_points = 0;      ///< inserted, those outside of the domain included
   std::size_t unrecovered = 0;         ///< subsegments and subfacets that the mesh lacks (0 unless stopped)
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
   Schedule_statistics schedule;

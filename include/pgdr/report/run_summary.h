@@ -27,10 +27,12 @@ struct Run_summary {
   Mesh_quality quality;
   std::size_t exempt_tetrahedra = 0;
   std::vector<Exempt_angle> exempt_angles;
+  std::size_t unrefined_tetrahedra = 0;
   std::uint64_t checksum = 0;  ///< `mesh_checksum`
   Stop_reason stop = Stop_reason::finished;
   std::string stop_message;
-  std::size_t steiner_points = 0;
+  std::size_t steiner_points = 0;    ///< inserted, those outside of the domain included
+  std::size_t steiner_vertices = 0;  ///< of the mesh
   std::size_t unrecovered = 0;
   unsigned threads = 1;
   Schedule_statistics schedule;
@@ -49,6 +51,10 @@ inline const char* stop_reason_name(Stop_reason reason) {
       return "vertex_budget";
     case Stop_reason::min_edge_length:
       return "min_edge_length";
+    case Stop_reason::memory_limit:
+      return "memory_limit";
+    case Stop_reason::time_limit:
+      return "time_limit";
     case Stop_reason::cancelled:
       return "cancelled";
   }
@@ -95,7 +101,7 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
   if (!run.planarization.is_none())
     line("made plane", with_separators(run.planarization.flattened_facets), "facets: " + planarization_text(run.planarization));
   line("vertices", with_separators(quality.vertices),
-       with_separators(run.steiner_points) + " of them Steiner points");
+       with_separators(run.steiner_vertices) + " of them Steiner points");
   line("tetrahedra", with_separators(quality.tetrahedra),
        "in " + counted(quality.region_tetrahedra.size(), "region", "regions"));
   line("triangles", with_separators(quality.triangles), "on facets");
@@ -108,6 +114,8 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
     line("exempt", with_separators(run.exempt_tetrahedra),
          "tetrahedra over the bound, at small angles of the input");
   print_exempt_angles(out, run.exempt_angles);
+  if (run.unrefined_tetrahedra > 0)
+    line("unrefined", with_separators(run.unrefined_tetrahedra), "tetrahedra over a bound of ratio or size when it stopped");
   if (run.unrecovered > 0)
     line("missing", with_separators(run.unrecovered), "pieces of segments and facets when it stopped");
   std::string phases;

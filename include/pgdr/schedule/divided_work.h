@@ -62,6 +62,7 @@ class Divided_work {
     for (const Drain_result& r : results) {
       round.result.inserted += r.inserted;
       round.result.refused += r.refused;
+      round.result.limited += r.limited;
       round.result.stopped |= r.stopped;
     }
     recorder.section("union", false, begin);

@@ -80,7 +80,8 @@ class Epoch_scheduler {
   }
 
   Schedule_statistics& statistics() { return statistics_; }
-  std::size_t vertices() const { return vertices_; }
+  /// How often an element was given up at the minimum edge length.
+  std::size_t limited() const { return limited_; }
 
  private:
   static std::array<double, 3> corner(const Vec_3& p) { return {p.x, p.y, p.z}; }
@@ -222,7 +223,7 @@ class Epoch_scheduler {
     std::size_t inserted = 0;
     for (const Drain_result& r : results_) {
       inserted += r.inserted;
-      refused_ += r.refused;
+      limited_ += r.limited;
     }
     epoch.inserted += inserted;
     vertices_ += inserted;
@@ -485,7 +486,7 @@ class Epoch_scheduler {
   std::vector<std::uint32_t> node_of_;
   std::vector<Drain_result> results_;
   std::size_t wave_ = 0;
-  std::size_t refused_ = 0;
+  std::size_t limited_ = 0;
   std::size_t extra_ = 0;
   double epoch_start_ = -1;
   double epoch_serial_ = 0;

@@ -86,7 +86,7 @@ class Ray_caster {
   enum class Outcome { proper, degenerate, starts_on_triangle };
   struct Result {
     Outcome outcome = Outcome::proper;
-    std::vector<Hit> hits;  ///< from the ray's source on; only when `proper`
+    std::vector<Hit> hits;  ///< when `proper`: from the ray's source on; when `starts_on_triangle`: that one
   };
 
   explicit Ray_caster(const Triangle_soup& soup) {
@@ -110,6 +110,7 @@ class Ray_caster {
                                           CGAL::orientation(source, target, (*t)[2], (*t)[0])};
       if (at_source == CGAL::COPLANAR && !CGAL::coplanar((*t)[0], (*t)[1], (*t)[2], target)) {
         result.outcome = Outcome::starts_on_triangle;
+        result.hits = {{static_cast<std::size_t>(t - triangles_.cbegin()), true}};
         return result;
       }
       if (at_source == CGAL::COPLANAR || sides[0] == CGAL::COPLANAR || sides[0] != sides[1] ||

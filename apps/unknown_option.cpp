@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "unknown_option.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace pgdr::app {
+
+namespace {
+
+/// How many letters have to be added, taken away, replaced or swapped with their neighbour (Damerau, 1964).
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = last;
+    last = row;
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string unknown_argument_text(const CLI::App& parser) {
+  constexpr std::size_t most_slips = 3;
+  const std::vector<std::string> unknown = parser.remaining(true);
+  const auto option = std::ranges::find_if(unknown, [](const std::string& word) { return word.starts_with('-'); });
+  if (option == unknown.end()) return "'" + (unknown.empty() ? std::string() : unknown.front()) + "' was not expected";
+  const std::string typed = option->substr(0, option->find('='));
+  std::string nearest;
+  std::size_t slips = std::min(most_slips, typed.size() / 2) + 1;
+  for (const CLI::Option* known : parser.get_options())
+    for (const std::string& name : known->get_lnames())
+      if (const std::size_t d = distance(typed, "--" + name); d < slips) {
+        slips = d;
+        nearest = name;
+      }
+  return "there is no option " + typed + (nearest.empty() ? "" : "; did you mean --" + nearest + "?");
+}
+
+}  // namespace pgdr::app

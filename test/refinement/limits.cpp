@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Limits hold, and what they leave is not called exempt.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "refined.h"
+
+using namespace pgdr_test;
+using pgdr::Stop_reason;
+
+namespace {
+
+/// Smaller and smaller boxes around a point, down to 2^-40: a field that goes to zero.
+pgdr::Command_line_sizing vanishing() {
+  std::vector<pgdr::Sizing_box> boxes;
+  for (int k = 1; k <= 40; ++k) {
+    const double r = std::ldexp(1.0, -k);
+    boxes.push_back({{0.4 - r, 0.45 - r, 0.55 - r}, {0.4 + r, 0.45 + r, 0.55 + r}, r});
+  }
+  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(1), boxes);
+}
+
+}  // namespace
+
+TEST_CASE("No edge is shorter than the minimum, whatever the size asks for", "[refinement]") {
+  for (const auto placement : {pgdr::Point_placement::circumcenter, pgdr::Point_placement::type1, pgdr::Point_placement::best_dihedral})
+    for (const double minimum : {0.3, 0.1}) {
+      pgdr::Parameters parameters;
+      parameters.min_edge_length = minimum;
+      parameters.placement = placement;
+      parameters.verify = true;
+      const auto refined_mesh = refined(box(), minimum / 8, parameters);
+      const auto mesh = pgdr::indexed_mesh_3(refined_mesh);
+      CAPTURE(minimum, static_cast<int>(placement));
+      CHECK(shortest_edge(mesh) >= minimum);
+      CHECK(mesh.points.size() > 20);
+      CHECK(refined_mesh.statistics().stop == Stop_reason::min_edge_length);
+      CHECK(refined_mesh.statistics().unrecovered == 0);
+      CHECK(mesh.unrefined.size() == mesh.tetrahedra.size());
+      CHECK(mesh.exempt.empty());
+      CHECK(failures(pgdr::check_mesh(mesh, &refined_mesh.domain())) == "");
+    }
+}
+
+TEST_CASE("A minimum edge length that the size does not reach changes nothing", "[refinement]") {
+  pgdr::Parameters parameters;
+  const auto without = pgdr::indexed_mesh_3(refined(box(), 0.1, parameters));
+  parameters.min_edge_length = shortest_edge(without);
+  const auto with = refined(box(), 0.1, parameters);
+  CHECK(with.statistics().stop == Stop_reason::finished);
+  CHECK(pgdr::indexed_mesh_3(with).tetrahedra == without.tetrahedra);
+}
+
+TEST_CASE("A sizing field that goes to zero ends at the minimum edge length", "[refinement]") {
+  pgdr::Parameters parameters;
+  parameters.min_edge_length = 1e-4;
+  const auto mesh = pgdr::refine_mesh_3(box(), vanishing(), parameters);
+  const auto indexed = pgdr::indexed_mesh_3(mesh);
+  CHECK(mesh.statistics().stop == Stop_reason::min_edge_length);
+  CHECK(shortest_edge(indexed) >= 1e-4);
+  CHECK_FALSE(indexed.unrefined.empty());
+  CHECK(indexed.unrefined.size() < indexed.tetrahedra.size());
+  CHECK(indexed.exempt.empty());
+  CHECK(failures(pgdr::check_mesh(indexed, &mesh.domain())) == "");
+}
+
+TEST_CASE("What a stop leaves is listed as unrefined, all of it and nothing else", "[refinement]") {
+  pgdr::Parameters parameters;
+  parameters.max_vertices = 3000;
+  for (const unsigned threads : {1u, 2u}) {
+    parameters.threads = threads;
+    const double size = 0.03;
+    const auto refined_mesh = refined(box(), size, parameters);
+    const auto mesh = pgdr::indexed_mesh_3(refined_mesh);
+    CHECK(refined_mesh.statistics().stop == Stop_reason::vertex_budget);
+    CHECK(mesh.exempt.empty());  // there is no small angle
+    CHECK_FALSE(mesh.unrefined.empty());
+    CHECK(std::ranges::is_sorted(mesh.unrefined));
+    std::size_t poor = 0, found = 0;
+    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+      const auto& t = mesh.tetrahedra[i];
+      const auto ball = pgdr::tetrahedron_ball({pgdr::to_vec(mesh.points[t[0]]), pgdr::to_vec(mesh.points[t[1]]),
+                                                pgdr::to_vec(mesh.points[t[2]]), pgdr::to_vec(mesh.points[t[3]])});
+      const bool is_poor = ball.squared_radius > size * size || ball.squared_radius > 4 * ball.squared_shortest;
+      poor += is_poor;
+      found += is_poor && std::ranges::binary_search(mesh.unrefined, i);
+    }
+    CHECK(poor == found);
+    CHECK(mesh.unrefined.size() == found);
+  }
+}
+
+TEST_CASE("Limits of time and of memory stop with a valid mesh", "[refinement]") {
+  for (const bool by_time : {true, false}) {
+    pgdr::Parameters parameters;
+    (by_time ? parameters.time_limit : parameters.min_edge_length) = by_time ? 0.2 : 0;
+    if (!by_time) parameters.max_memory = pgdr::resident_memory_bytes() / 3 * 4 + (std::size_t{200} << 20);
+    const auto refined_mesh = refined(box(), 0.002, parameters);
+    CHECK(refined_mesh.statistics().stop == (by_time ? Stop_reason::time_limit : Stop_reason::memory_limit));
+    CHECK(refined_mesh.statistics().stop_message.starts_with("stopped at the limit of "));
+    const auto mesh = pgdr::indexed_mesh_3(refined_mesh);
+    CHECK_FALSE(mesh.unrefined.empty());
+    CHECK(mesh.exempt.empty());
+    CHECK(refined_mesh.statistics().unrecovered == 0);
+  }
+}
+
+TEST_CASE("A caller's flag is seen beside other limits", "[refinement]") {
+  const std::atomic<bool> cancel = true;
+  pgdr::Parameters parameters;
+  parameters.cancel = &cancel;
+  parameters.time_limit = 1000;
+  CHECK(refined(box(), 0.002, parameters).statistics().stop == Stop_reason::cancelled);
+}
+
+TEST_CASE("An octree too deep is refused", "[refinement]") {
+  pgdr::Parameters parameters;
+  for (const int depth : {-1, pgdr::Parameters::largest_octree_depth + 1, 50}) {
+    parameters.octree_depth = depth;
+    CHECK_THROWS_AS(refined(box(), 1, parameters), std::invalid_argument);
+  }
+}
+
+TEST_CASE("The library leaves stray seeds out with a warning, and refuses ambiguous ones", "[refinement]") {
+  auto plc = box();
+  const auto whole = pgdr::mesh_checksum(pgdr::indexed_mesh_3(refined(plc, 0.3)));
+  plc.holes.emplace_back(5, 5, 5);
+  plc.regions.push_back({{-1, 0.5, 0.5}, 7, 0});
+  const auto mesh = refined(plc, 0.3);
+  CHECK(mesh.statistics().warnings.size() == 2);
+  CHECK(pgdr::mesh_checksum(pgdr::indexed_mesh_3(mesh)) == whole);
+  plc.holes.emplace_back(0.5, 0.5, 0);
+  CHECK_THROWS_AS(refined(plc, 0.3), pgdr::Input_error);
+}
