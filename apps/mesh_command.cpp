@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/write_mesh.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
@@ -136,9 +137,10 @@ Command_line_sizing sizing_field(const Mesh_arguments& arguments) {
 
 /// A box that is nowhere near the domain is a slip, more often than not.
 void warn_of_boxes_outside(const Command_line_sizing& sizing, const Domain& domain) {
+  const double unit = unit_of(domain);
   for (const Sizing_box& box : sizing.boxes()) {
     bool is_outside = false;
-    for (std::size_t k = 0; k < 3; ++k) is_outside |= box.lower[k] > domain.upper[k] || box.upper[k] < domain.lower[k];
+    for (std::size_t k = 0; k < 3; ++k) is_outside |= box.lower[k] > unit * domain.upper[k] || box.upper[k] < unit * domain.lower[k];
     if (is_outside)
       print_message("warning: the refined box from " + significant(box.lower[0]) + "," + significant(box.lower[1]) + "," +
                     significant(box.lower[2]) + " lies outside of the input");

@@ -5,6 +5,7 @@
 
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/domain/scale.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/parameters.h>
 
@@ -77,15 +78,20 @@ bool can_be_meshed(const Plc& plc, const Domain_options& options) {
 }  // namespace
 
 Input read_input(const std::filesystem::path& path, const Domain_options& options) {
-  Input input{read_plc(path), {}, {}};
+  Input input{normalized(read_plc(path)), {}, {}};
   Plc& plc = input.plc;
+  const double unit = unit_of(plc);
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
   for (const std::string& text : options.holes) {
     const auto p = parse_point("--hole", text);
-    plc.holes.emplace_back(p[0], p[1], p[2]);
+    plc.holes.emplace_back(p[0] / unit, p[1] / unit, p[2] / unit);
   }
   std::vector<Plc_region<Default_kernel>> regions;
-  for (const std::string& text : options.regions) regions.push_back(parse_region(text));
+  for (const std::string& text : options.regions) {
+    Plc_region<Default_kernel>& r = regions.emplace_back(parse_region(text));
+    r.point = {r.point.x() / unit, r.point.y() / unit, r.point.z() / unit};
+    r.max_circumradius /= unit;
+  }
   plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
 
   const double tolerance = simplification(path, options).in_units(bounding_diagonal(plc));

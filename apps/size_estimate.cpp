@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include <pgdr/domain/scale.h>
 #include <pgdr/domain/volumes_3.h>
 #include <pgdr/report/format.h>
 
@@ -33,9 +35,9 @@ bool contains(const Sizing_box& box, const std::array<double, 3>& p) {
 }
 
 /// What the k-th box adds, which is finer than the later ones.
-double count_in_box(const Domain& domain, const Volumes_3<Default_kernel>& volumes, const Command_line_sizing& sizing, std::size_t k) {
+double count_in_box(const Domain& domain, const Volumes_3<Default_kernel>& volumes, const std::vector<Sizing_box>& boxes,
+                    std::size_t k) {
   constexpr std::size_t samples = 8;  // along each axis
-  const std::vector<Sizing_box>& boxes = sizing.boxes();
   std::array<double, 3> lower{}, edge{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lower[axis] = std::max(boxes[k].lower[axis], domain.lower[axis]);
@@ -62,11 +64,19 @@ double count_in_box(const Domain& domain, const Volumes_3<Default_kernel>& volum
 
 double expected_vertices(const Domain& domain, const Command_line_sizing& sizing, bool ignore_region_sizes) {
   const Volumes_3<Default_kernel> volumes(domain);
-  const double size = sizing.outer()(Default_kernel::Point_3(0, 0, 0));
+  const double unit = unit_of(domain), size = sizing.outer()(Default_kernel::Point_3(0, 0, 0)) / unit;
+  std::vector<Sizing_box> boxes = sizing.boxes();
+  for (Sizing_box& box : boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.lower[axis] /= unit;
+      box.upper[axis] /= unit;
+    }
+    box.radius /= unit;
+  }
   double sum = 0;
   for (const Volume& v : volumes.volumes())
     if (v.material) sum += count(v.volume, std::min(size, size_of(v, ignore_region_sizes)));
-  for (std::size_t k = 0; k < sizing.boxes().size(); ++k) sum += count_in_box(domain, volumes, sizing, k);
+  for (std::size_t k = 0; k < boxes.size(); ++k) sum += count_in_box(domain, volumes, boxes, k);
   return sum;
 }
 

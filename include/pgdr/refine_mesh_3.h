@@ -48,7 +48,7 @@ class Mesher_3 {
  public:
   Mesher_3(Domain_3<K> domain, const Parameters& parameters, Placement placement)
       : parameters_(parameters), watch_(parameters.cancel, memory_to_refine(parameters), parameters.time_limit), placement_(std::move(placement)), mesh_(std::move(domain)), acute_(mesh_.domain()),
-        min_edge_length_(parameters.min_edge_length > 0 ? parameters.min_edge_length
+        min_edge_length_(parameters.min_edge_length > 0 ? parameters.min_edge_length / unit_of(mesh_.domain())
                                                         : 1e-9 * mesh_.domain().diagonal),
         features_(mesh_.triangulation(), mesh_.complex(), acute_, min_edge_length_) {
     parameters_.cancel = watch_.flag();
@@ -73,7 +73,7 @@ class Mesher_3 {
     mesh_.subdomains() =
         Subdomain_labeler_3<Tr>(mesh_.triangulation(), mesh_.complex()).label(parameters_.ignore_region_sizes);
     lap("labelling");
-    const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains());
+    const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains(), unit_of(mesh_.domain()));
     if (count_missing() == 0 && reason_ == Stop_reason::finished) refine(criteria);
     if (reason_ != Stop_reason::finished) note_unrefined(criteria);
     mesh_.triangulation().restore_infinite_cell(on_hull);
@@ -174,7 +174,7 @@ class Mesher_3 {
         s.stop_message = "stopped at the limit of " + significant(parameters_.time_limit, 3) + " s" + lost;
         break;
       case Stop_reason::min_edge_length:
-        s.stop_message = "stopped at the minimum edge length of " + significant(min_edge_length_, 3) + lost;
+        s.stop_message = "stopped at the minimum edge length of " + significant(unit_of(mesh_.domain()) * min_edge_length_, 3) + lost;
         if (limited_ > 0) s.stop_message += "; " + counted(limited_, "tetrahedron", "tetrahedra") + " could not be refined";
         break;
     }
@@ -209,6 +209,7 @@ class Mesher_3 {
 /// at most `parameters.radius_edge_ratio` and a circumradius of at most `sizing` at its circumcenter, but for
 /// *exempt* ones next to input angles below 60 degrees.
 ///
+/// Lengths in `sizing` and `parameters` are in the user's unit, those of the triangulation in 2^`Domain_3::exponent` of it.
 /// Ends for every domain without acute angles between facets (Shewchuk 1998); else a limit may end it, see
 /// `Run_statistics::stop`. \pre `validate_domain_3(domain)` finds no fault.
 /// `placement` says where in its selection ball the Steiner point of a tetrahedron goes.

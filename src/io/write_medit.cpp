@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/medit.h>
 #include <pgdr/parallel/parallel_for.h>
@@ -29,8 +30,9 @@ std::int32_t reference_of(const std::vector<std::int32_t>& references, std::size
 
 /// Formats the rows [first, last) of the vertex section; returns the end of the text.
 char* format_points(const Indexed_mesh_3& mesh, std::size_t first, std::size_t last, char* out) {
+  const double unit = unit_of(mesh);
   for (std::size_t i = first; i < last; ++i) {
-    for (const double x : mesh.points[i]) out = put_char(put_number(out, x), ' ');
+    for (const double x : mesh.points[i]) out = put_char(put_number(out, unit * x), ' ');
     out = put_char(put_number(out, reference_of(mesh.point_references, i)), '\n');
   }
   return out;

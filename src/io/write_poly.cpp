@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 
 #include "numbers.h"
@@ -68,7 +69,7 @@ class Poly_writer {
       const auto& region = plc_.regions[i];
       numbers(plc_.first_index + i).point(region.point).numbers(region.id);
       if (region.max_volume > 0)
-        numbers(region.max_volume).end_line();
+        numbers(std::ldexp(region.max_volume, 3 * plc_.exponent)).end_line();
       else
         numbers(-1).end_line();
     }
@@ -80,7 +81,7 @@ class Poly_writer {
     return *this;
   }
 
-  Poly_writer& point(const Plc::Point_3& p) { return numbers(p.x(), p.y(), p.z()); }
+  Poly_writer& point(const Plc::Point_3& p) { return numbers(unit_ * p.x(), unit_ * p.y(), unit_ * p.z()); }
 
   template <class T>
   void number(T value) {
@@ -98,6 +99,7 @@ class Poly_writer {
 
   const Plc& plc_;
   Atomic_file& out_;
+  double unit_ = unit_of(plc_);
   bool first_in_line_ = true;
 };
 

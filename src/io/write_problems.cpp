@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <pgdr/domain/vec_3.h>
+#include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/write_problems.h>
 
@@ -40,7 +41,7 @@ class Problem_cells {
     std::ostringstream points, numbers;
     points.precision(17);
     for (const Index v : vertices_) {
-      const Vec_3 p = to_vec(plc_.vertices[v]);
+      const Vec_3 p = unit_of(plc_) * to_vec(plc_.vertices[v]);
       points << p.x << ' ' << p.y << ' ' << p.z << '\n';
       numbers << v + plc_.first_index << ' ';
     }

@@ -14,6 +14,7 @@
 
 #include <zlib.h>
 
+#include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/output_error.h>
 #include <pgdr/io/vtu.h>
@@ -107,7 +108,10 @@ class Vtu_writer {
                          [&](std::size_t i) { return at(mesh_.point_references, i); });
     append_cell_data(region, ratio, angle, exempt, unrefined);
     append<Indexed_mesh_3::Point>(points, mesh_.points.size(),
-                                  [&](std::size_t i) { return mesh_.points[i]; });
+                                  [&, unit = unit_of(mesh_)](std::size_t i) {
+                                    const auto& [x, y, z] = mesh_.points[i];
+                                    return Indexed_mesh_3::Point{unit * x, unit * y, unit * z};
+                                  });
     if (wide_)
       append_cells<std::int64_t>(connectivity, offsets);
     else

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/mesh/scale_mesh.h>
 #include <pgdr/quality/check_mesh.h>
 
 #include <algorithm>
@@ -11,6 +12,8 @@ namespace pgdr {
 std::vector<Check_line> check_mesh(const Indexed_mesh_3& mesh, const Domain_3<Default_kernel>* domain,
                                    const Check_options& options) {
   namespace q = quality_detail;
+  const int exponent = domain != nullptr ? domain->exponent : mesh.exponent + exponent_for(mesh);
+  if (exponent != mesh.exponent) return check_mesh(scaled_to(mesh, exponent), domain, options);
   std::vector<Check_line> lines{q::check_indices(mesh)};
   if (!lines[0].passed) return lines;
   lines.push_back(q::check_vertices(mesh));

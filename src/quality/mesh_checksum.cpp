@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <pgdr/mesh/scale_mesh.h>
 #include <pgdr/parallel/parallel_reduce.h>
 #include <pgdr/quality/mesh_quality.h>
 
@@ -81,6 +82,7 @@ void add(std::uint64_t& h, const std::vector<std::array<Number, N>>& rows) {
 }  // namespace
 
 std::uint64_t mesh_checksum(const Indexed_mesh_3& mesh) {
+  if (mesh.exponent != 0) return mesh_checksum(scaled_to(mesh, 0));
   std::uint64_t h = start;
   add(h, mesh.points);
   add(h, mesh.point_references);

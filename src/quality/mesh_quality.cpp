@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/domain/scale.h>
 #include <pgdr/quality/mesh_quality.h>
 
 #include <algorithm>
@@ -128,17 +129,18 @@ class Quality_sum {
     q.edges = mesh.edges.size();
     q.triangles = mesh.triangles.size();
     q.tetrahedra = mesh.tetrahedra.size();
-    q.max_circumradius = std::sqrt(max_squared_radius_);
+    const double unit = unit_of(mesh);
+    q.max_circumradius = unit * std::sqrt(max_squared_radius_);
     q.max_radius_edge_ratio = std::sqrt(max_squared_ratio_);
     q.mean_radius_edge_ratio = ratios_.value() / double(q.tetrahedra);
-    q.shortest_edge = std::sqrt(min_squared_edge_);
+    q.shortest_edge = unit * std::sqrt(min_squared_edge_);
     Compensated_sum volume;
     for (const auto& [region, sum] : regions_) {
       volume += sum.volume.value();
-      q.region_volumes[region] = sum.volume.value();
+      q.region_volumes[region] = std::ldexp(sum.volume.value(), 3 * mesh.exponent);
       q.region_tetrahedra[region] = sum.tetrahedra;
     }
-    q.volume = volume.value();
+    q.volume = std::ldexp(volume.value(), 3 * mesh.exponent);
     return q;
   }
 

@@ -96,6 +96,7 @@ class Planarizer {
     for (std::size_t v = 0; v < points.size(); ++v) done.moved_vertices += squared_distance(points[v], input_[v]) > 0;
     for (const auto& f : domain_.facets)
       for (const Index v : f.vertices) done.largest_change = std::max(done.largest_change, off_plane(f, v, points));
+    done.largest_change *= unit_of(domain_);
     return done;
   }
 
@@ -264,6 +265,7 @@ Low_corners low_corners(const Domain& domain, const Plc& input, double height) {
 }  // namespace
 
 Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done) {
+  if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done);
   Plc best = plc;
   Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
   // Other triangles may lie within the tolerance of one plane once their vertices have moved.

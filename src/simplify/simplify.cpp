@@ -258,7 +258,7 @@ class Simplifier {
 double bounding_diagonal(const Plc& plc) {
   if (plc.vertices.empty()) return 0;
   const CGAL::Bbox_3 box = CGAL::bbox_3(plc.vertices.begin(), plc.vertices.end());
-  return length(Vec_3{box.xmax(), box.ymax(), box.zmax()} - Vec_3{box.xmin(), box.ymin(), box.zmin()});
+  return unit_of(plc) * length(Vec_3{box.xmax(), box.ymax(), box.zmax()} - Vec_3{box.xmin(), box.ymin(), box.zmin()});
 }
 
 Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
@@ -267,6 +267,8 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
   Simplification& report = done ? *done : ignored;
   report = {};
   if (!(tolerance > 0) || !domain_detail::unusable_input(plc).empty()) return plc;
+  if (exponent_for(plc) != 0) return simplify(normalized(plc), tolerance, done);
+  tolerance /= unit_of(plc);
 
   std::vector<Vec_3> points;
   points.reserve(plc.vertices.size());
@@ -317,6 +319,7 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
     if (is_complete) break;
     complex = input;
   }
+  report.largest_change *= unit_of(plc);
   if (report.is_none()) return plc;
 
   Plc result = plc;

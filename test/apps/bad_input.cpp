@@ -2,6 +2,8 @@
 // Every kind of bad input: exit code 3, one sentence that names the file, line or facet, and no file left.
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "program.h"
 
 using pgdr_test::check_fails;
@@ -186,6 +188,33 @@ TEST_CASE("sizes that ask for more than the memory holds are refused before the 
   CHECK(sandbox.run(mesh + "--refine-box 5,5,5,6,6,6:1e-6").exit_code == 0);
   CHECK(sandbox.run(mesh + "--size 1e-6 --max-vertices 500").exit_code == 4);
   CHECK(std::filesystem::exists(sandbox / "out.mesh"));
+}
+
+TEST_CASE("coordinates near the ends of double's range are meshed, checked and read back, or refused", "[apps]") {
+  const auto cube = [](const char* length) {
+    const std::string l = length;
+    std::string text = "OFF\n8 6 0\n";
+    for (int i = 0; i < 8; ++i) text += (i & 1 ? l : "0") + " " + (i & 2 ? l : "0") + " " + (i & 4 ? l : "0") + "\n";
+    return text + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 1 3 7 5\n4 3 2 6 7\n4 2 0 4 6\n";
+  };
+  const Sandbox sandbox;
+  for (const std::string exponent : {"200", "100", "40", "-40", "-80", "-200"}) {
+    sandbox.write("cube.off", cube(("1e" + exponent).c_str()));
+    CAPTURE(exponent);
+    CHECK(sandbox.run("mesh --quiet cube.off --size 0.3e" + exponent + " -o out.mesh -o out.vtu --stats s.json").exit_code == 0);
+    CHECK(sandbox.run("check out.mesh --plc cube.off").exit_code == 0);
+    const auto stats = nlohmann::json::parse(file_text(sandbox / "s.json"));
+    CHECK(stats["tetrahedra"].get<int>() > 100);
+    CHECK(stats["max_radius_edge_ratio"].get<double>() < 2);
+    CHECK(sandbox.run("info cube.off --write-plc out.poly").exit_code == 0);
+    CHECK(sandbox.run("check out.mesh --plc out.poly").exit_code == 0);
+  }
+  std::string far = cube("1e200");
+  far.replace(far.find("\n0 0 0\n"), 7, "\n0 0 1e-200\n");
+  sandbox.write("far.off", far);
+  check_fails(sandbox, "mesh far.off -o new.mesh", 3, {"too far apart"});
+  sandbox.write("tiny.off", cube("1e-310"));
+  check_fails(sandbox, "mesh tiny.off -o new.mesh", 3, {"no room"});
 }
 
 TEST_CASE("a refined box outside of the input is worth a warning", "[apps]") {

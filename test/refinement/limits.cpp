@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <pgdr/mesh/scale_mesh.h>
+
 #include "refined.h"
 
 using namespace pgdr_test;
@@ -134,4 +136,23 @@ TEST_CASE("The library leaves stray seeds out with a warning, and refuses ambigu
   CHECK(pgdr::mesh_checksum(pgdr::indexed_mesh_3(mesh)) == whole);
   plc.holes.emplace_back(0.5, 0.5, 0);
   CHECK_THROWS_AS(refined(plc, 0.3), pgdr::Input_error);
+}
+
+TEST_CASE("A PLC scaled by a power of two gives the same mesh, scaled, however large or small", "[refinement]") {
+  const auto whole = pgdr::indexed_mesh_3(refined(box(), 0.2));
+  for (const int power : {3, -59, 64, 300, 665, -300, -890}) {
+    const double unit = std::ldexp(1.0, power);
+    pgdr::Parameters parameters;
+    parameters.verify = true;
+    const auto mesh = refined(box({0, 0, 0}, {unit, unit, unit}), 0.2 * unit, parameters);
+    const auto indexed = pgdr::indexed_mesh_3(mesh);
+    CAPTURE(power);
+    CHECK(indexed.tetrahedra == whole.tetrahedra);
+    CHECK(pgdr::scaled_to(indexed, power).points == whole.points);
+    CHECK(failures(pgdr::check_mesh(indexed, &mesh.domain())) == "");
+    const auto quality = pgdr::mesh_quality(indexed);
+    CHECK(quality.max_circumradius <= 0.2 * unit);
+    CHECK(quality.max_circumradius > 0.1 * unit);
+    CHECK(quality.max_radius_edge_ratio == pgdr::mesh_quality(whole).max_radius_edge_ratio);
+  }
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <pgdr/domain/detail/facet_edges.h>
@@ -60,7 +59,7 @@ class Facet_wedges_3 {
           const double angle = angle_deg(u, v);
           if (f.facet != g.facet && angle < limit)
             of_facet_[f.facet].push_back(
-                {g.facet, origin, along, u, v, 2 * std::sin(angle * std::numbers::pi / 360), angle < usual_limit});
+                {g.facet, origin, along, u, v, length(u - v), angle < usual_limit});
         }
     }
   }

@@ -18,6 +18,7 @@
 #include <CGAL/property_map.h>
 
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
@@ -53,7 +54,7 @@ class Protected_balls_3 {
     keep_clear(domain);
     for (Index v = 0; v < radius_.size(); ++v) {
       if (!(radius_[v] > 0)) continue;
-      radius_[v] = std::exp2(std::floor(std::log2(radius_[v])));
+      radius_[v] = floor_power_of_two(radius_[v]);
       largest_ = std::max(largest_, radius_[v]);
       const Vec_3& p = position_[v];
       centers_.insert({Kernel::Point_3(p.x, p.y, p.z), v});

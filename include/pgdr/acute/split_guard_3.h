@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/acute/narrow_angles_3.h>
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
@@ -78,7 +78,7 @@ bool is_hopeless(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_
   bool is_hopeless = false;
   for_each_shortest_edge(ball, corners, [&](std::size_t i, std::size_t j) {
     if (on(i).dimension > 2 || on(j).dimension > 2) return;
-    const double limit = std::asin(1 / (2 * ratio)) * 180 / std::numbers::pi;
+    const double limit = to_degrees(arc_tangent(1, std::sqrt(4 * ratio * ratio - 1)));
     for (std::size_t k = 0; k < 4; ++k)
       is_hopeless |= k != i && k != j && triangle_circumradius(corners[i], corners[j], corners[k]) > least &&
                      narrow.are_narrow(on(k), on(i), on(j), limit);

@@ -15,6 +15,7 @@
 
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/reproducible_functions.h>
 
 namespace pgdr {
 
@@ -54,7 +55,7 @@ std::vector<typename Tr::Vertex_handle> insert_domain_vertices(Tr& tr, const Dom
   typename Tr::Vertex_handle last;
   if (!is_box(domain)) {
     // Rounded to few bits, so that the box's coordinates are exact in all that is computed from them.
-    const double margin = std::exp2(std::ceil(std::log2(domain.diagonal)) - 1);
+    const double margin = ceil_power_of_two(domain.diagonal) / 2;
     std::array<double, 3> lo, hi;
     for (std::size_t i = 0; i < 3; ++i) {
       lo[i] = std::floor((domain.lower[i] - margin) / margin) * margin;

@@ -11,6 +11,7 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/encroachment_3.h>
 #include <pgdr/conforming/sheet_walk_3.h>
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/mesh/territory_3.h>
 
 namespace pgdr {
@@ -60,7 +61,7 @@ std::uint32_t neighbor_to_flip(const Constraint_complex_3<Tr>& complex, std::uin
     const auto d = complex.subfacet(n).vertices[static_cast<std::size_t>(complex.edge_with_neighbor(n, slot))];
     const auto angle_at = [&](auto v) {
       const Vec_3 p = plane.project(position(v)), e = plane.project(position(b)) - p, f = plane.project(position(c)) - p;
-      return std::atan2(length(cross(e, f)), dot(e, f));
+      return arc_tangent(length(cross(e, f)), dot(e, f));
     };
     if (angle_at(a) + angle_at(d) > std::numbers::pi + rounding &&
         complex.orientation(t.facet, a->point(), b->point(), d->point()) == CGAL::POSITIVE &&

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
@@ -22,7 +23,7 @@ inline Vec_3 subsegment_split_point(const Vec_3& a, const Vec_3& b, bool acute_a
   const Vec_3& other = acute_at_a ? b : a;
   const double len = length(other - corner);
   // The power of two in (len/3, 2 len/3].
-  const double shell = std::max(smallest_shell, std::exp2(std::floor(std::log2(2.0 / 3.0 * len))));
+  const double shell = std::max(smallest_shell, floor_power_of_two(2.0 / 3.0 * len));
   Vec_3 m = corner + (shell / len) * (other - corner);
   for (int i = 0; i < 3; ++i)
     if (a[i] == b[i]) m[i] = a[i];

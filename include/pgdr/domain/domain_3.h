@@ -54,6 +54,7 @@ struct Domain_3 {
   double diagonal = 0;            ///< of the bounding box
   double tolerance = 0;           ///< absolute distance within which facets were fused
   std::size_t duplicate_vertices = 0;  ///< merged
+  int exponent = 0;               ///< all lengths above are in units of 2^exponent of the user's
   std::size_t first_index = 0;    ///< see `Piecewise_linear_complex_3`
 };
 

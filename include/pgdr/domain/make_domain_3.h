@@ -18,6 +18,7 @@
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
 #include <pgdr/domain/plc.h>
+#include <pgdr/domain/scale.h>
 
 namespace pgdr {
 
@@ -163,6 +164,7 @@ template <class K>
 Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relative_tolerance = 1e-6,
                           bool triangulate = false) {
   using namespace domain_detail;
+  if (exponent_for(plc) != 0) return make_domain_3(normalized(plc), relative_tolerance, triangulate);
   std::vector<Input_problem> problems = unusable_input(plc);
   std::vector<Vec_3> input_points;
   std::vector<char> unusable(plc.vertices.size(), 0);
@@ -175,6 +177,7 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
   domain.nesting = plc.nesting;
   domain.holes = plc.holes;
   domain.regions = plc.regions;
+  domain.exponent = plc.exponent;
   domain.first_index = plc.first_index;
 
   // Vertices.

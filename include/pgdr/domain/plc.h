@@ -60,6 +60,7 @@ struct Piecewise_linear_complex_3 {
   std::vector<Point_3> holes;  ///< one point in each volume that is not meshed
   std::vector<Plc_region<K>> regions;
   Nesting nesting = Nesting::fill;
+  int exponent = 0;  ///< all lengths above are in units of 2^exponent of the user's; see `normalized`
 
   // Where things stood in the file, for messages only; empty for a PLC made in memory.
   std::size_t first_index = 0;  ///< the number that the file gives its first vertex and its first facet (0 or 1)

@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/reproducible_functions.h>
 
 namespace pgdr {
 
@@ -41,7 +41,7 @@ inline double angle_to_sector_deg(const Vec_3& d, const Vec_3& p, const Vec_3& q
   // The projection of d into the plane lies between p and q.
   if (dot(cross(p, d), n) <= 0 || dot(cross(d, q), n) <= 0) return to_sides;
   const double height = std::abs(dot(d, n));
-  const double to_plane = std::atan2(height, length(cross(d, n))) * 180.0 / std::numbers::pi;
+  const double to_plane = to_degrees(arc_tangent(height, length(cross(d, n))));
   return std::min(to_sides, to_plane);
 }
 
@@ -82,7 +82,7 @@ Small_angles small_angles_3(const Domain_3<K>& domain) {
         u = normalized(leaving - dot(leaving, axis) * axis);
         v = cross(axis, u);
       }
-      double angle = std::atan2(dot(leaving, v), dot(leaving, u)) * 180.0 / std::numbers::pi;
+      const double angle = to_degrees(arc_tangent(dot(leaving, v), dot(leaving, u)));
       around.push_back(angle < 0 ? angle + 360 : angle);
     }
     result.segment_deg[s] = smallest_gap_deg(around);

@@ -55,10 +55,13 @@ Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pai
   result.duplicate_vertices = domain.duplicate_vertices;
   result.segments = domain.segments.size();
   result.facets = domain.facets.size();
-  result.lower = domain.lower;
-  result.upper = domain.upper;
-  result.diagonal = domain.diagonal;
-  result.tolerance = domain.tolerance;
+  const double unit = unit_of(domain);
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.lower[k] = unit * domain.lower[k];
+    result.upper[k] = unit * domain.upper[k];
+  }
+  result.diagonal = unit * domain.diagonal;
+  result.tolerance = unit * domain.tolerance;
 
   std::vector<Index> inputs;
   for (const auto& f : domain.facets) {
@@ -91,7 +94,12 @@ Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pai
   report_volumes(domain, volumes, max_pairs, result.problems);
   result.closed = volumes.closed();
   result.volumes = volumes.volumes();
-  result.material_volume = volumes.total_material_volume();
+  result.material_volume = std::ldexp(volumes.total_material_volume(), 3 * domain.exponent);
+  for (Volume& v : result.volumes) {
+    v.volume = std::ldexp(v.volume, 3 * domain.exponent);
+    v.max_volume = std::ldexp(v.max_volume, 3 * domain.exponent);
+    v.max_circumradius = std::ldexp(v.max_circumradius, domain.exponent);
+  }
   return result;
 }
 

@@ -16,6 +16,7 @@
 #include <pgdr/domain/detail/intersecting_triangles.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
+#include <pgdr/domain/scale.h>
 #include <pgdr/domain/volumes_3.h>
 
 namespace pgdr {
@@ -43,8 +44,8 @@ class Problem_writer {
     return "the segment between vertices " + vertex_number(s[0]) + " and " + vertex_number(s[1]);
   }
   template <class Point>
-  static std::string point(const Point& p) {
-    const Vec_3 v = to_vec(p);
+  std::string point(const Point& p) const {
+    const Vec_3 v = unit_of(domain_) * to_vec(p);
     char text[96];
     std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g)", v.x, v.y, v.z);
     return text;
@@ -173,7 +174,7 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std:
     return;
   }
   const auto lost = [&](const char* what, const auto& seed, const auto& point) {
-    const std::string name = what + std::to_string(seed.seed + 1) + " at " + Problem_writer<K>::point(point);
+    const std::string name = what + std::to_string(seed.seed + 1) + " at " + Problem_writer<K>(domain).point(point);
     if (seed.facet == Volumes_3<K>::none) {
       problems.push_back({Kind::bad_seed, name + " lies in no enclosed volume and is left out"});
       return;

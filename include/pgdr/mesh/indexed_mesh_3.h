@@ -14,7 +14,8 @@ namespace pgdr {
 struct Indexed_mesh_3 {
   using Point = std::array<double, 3>;
 
-  std::vector<Point> points;
+  std::vector<Point> points;                     ///< in units of 2^exponent of the user's
+  int exponent = 0;                              ///< not 0 only where coordinates are very large or small; see `normalized`
   std::vector<std::int32_t> point_references;    ///< the input vertex's marker; 0 for Steiner points
   std::vector<std::uint8_t> point_dimensions;    ///< `in_dimension`: 0 corner, 1 segment, 2 facet, 3 volume; may be empty (a `.mesh` file does not hold it)
 

@@ -17,10 +17,11 @@ template <class K, class Sizing>
   requires SizingField<Sizing, K>
 class Quality_criteria_3 {
  public:
-  Quality_criteria_3(double radius_edge_ratio, Sizing sizing, std::vector<Subdomain> subdomains)
+  /// `unit`: what coordinates and lengths of the triangulation are multiplied by to be those of the sizing field.
+  Quality_criteria_3(double radius_edge_ratio, Sizing sizing, std::vector<Subdomain> subdomains, double unit = 1)
       // A hair below the bound, so that whoever measures the written mesh in other arithmetic agrees.
       : radius_edge_ratio_(radius_edge_ratio), squared_ratio_(radius_edge_ratio * radius_edge_ratio * (1 - 1e-9)),
-        sizing_(std::move(sizing)),
+        sizing_(std::move(sizing)), unit_(unit),
         subdomains_(std::move(subdomains)) {}
 
   bool is_poor(const Tetrahedron_ball& b, std::int32_t subdomain) const {
@@ -41,7 +42,7 @@ class Quality_criteria_3 {
   }
 
   /// The sizing field, without the bounds of subdomains.
-  double size_at(const Vec_3& p) const { return sizing_(typename K::Point_3(p.x, p.y, p.z)); }
+  double size_at(const Vec_3& p) const { return sizing_(typename K::Point_3(p.x * unit_, p.y * unit_, p.z * unit_)) / unit_; }
 
   double radius_edge_ratio() const { return radius_edge_ratio_; }
   const std::vector<Subdomain>& subdomains() const { return subdomains_; }
@@ -50,6 +51,7 @@ class Quality_criteria_3 {
   double radius_edge_ratio_;
   double squared_ratio_;
   Sizing sizing_;
+  double unit_;
   std::vector<Subdomain> subdomains_;
 };
 

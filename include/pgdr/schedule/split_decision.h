@@ -168,7 +168,7 @@ class Split_decision {
     // Rounding may leave nothing of a very thin domain.
     const double most_parts = std::ldexp(1.0, static_cast<int>(Octree_key::max_level));
     double parts = 4;
-    while (parts < most_parts && volumes.inside * parts * parts * parts < 8 * std::pow(leaves_[0].edge, 3)) parts *= 2;
+    while (parts < most_parts && volumes.inside * parts * parts * parts < 8 * leaves_[0].edge * leaves_[0].edge * leaves_[0].edge) parts *= 2;
     return expected_vertices(volumes.outside, zone_target(leaves_[0].shortest / parts)) <= outside_points_ * gain;
   }
 

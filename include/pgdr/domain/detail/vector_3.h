@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr::domain_detail {
@@ -26,7 +26,7 @@ inline Work_point to_work_point(const Vec_3& p) { return {p.x, p.y, p.z}; }
 
 /// Angle between two directions in degrees, accurate near 0 and 180 too.
 inline double angle_deg(const Vec_3& a, const Vec_3& b) {
-  return std::atan2(length(cross(a, b)), dot(a, b)) * 180.0 / std::numbers::pi;
+  return to_degrees(arc_tangent(length(cross(a, b)), dot(a, b)));
 }
 
 }  // namespace pgdr::domain_detail
