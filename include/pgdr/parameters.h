@@ -50,6 +50,9 @@ struct Parameters {
   /// The refinement stops at this many vertices, plus the few it may take to leave every facet whole; 0: no limit.
   /// Where not even the recovery of the input fits, the mesh lacks pieces of it, and the statistics say so.
   std::size_t max_vertices = 0;
+  /// Where there is no other limit it stops at this many: at seven or eight tetrahedra to a vertex, as many as 32 bits can number.
+  static constexpr std::size_t most_vertices = std::size_t{1} << 29;
+  std::size_t vertex_limit() const { return max_vertices > 0 ? max_vertices : most_vertices; }
 
   /// The refinement stops before the process needs more memory than this, in bytes, numbering included; 0: no limit. Where it does,
   /// the mesh depends on the machine.

@@ -164,7 +164,7 @@ class Mesher_3 {
     switch (reason_) {
       case Stop_reason::finished: break;
       case Stop_reason::vertex_budget:
-        s.stop_message = "stopped at the limit of " + std::to_string(parameters_.max_vertices) + " vertices" + lost;
+        s.stop_message = "stopped at the limit of " + std::to_string(parameters_.vertex_limit()) + " vertices" + lost;
         break;
       case Stop_reason::cancelled: s.stop_message = "cancelled" + lost; break;
       case Stop_reason::memory_limit:

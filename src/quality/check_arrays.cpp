@@ -48,11 +48,11 @@ void find_duplicates(const std::vector<std::array<std::uint32_t, N>>& items, con
 
 }  // namespace
 
-Check_line check_indices(const Indexed_mesh_3& mesh) {
+Check_line check_indices(const Indexed_mesh_3& mesh, std::size_t most_tetrahedra) {
   Failures failures;
   const std::size_t n = mesh.points.size();
   if (mesh.tetrahedra.empty()) failures.add("there are no tetrahedra");
-  if (mesh.tetrahedra.size() >= (std::size_t(1) << 30)) failures.add("too many tetrahedra for this checker");
+  if (mesh.tetrahedra.size() > most_tetrahedra) failures.add("more than ", most_tetrahedra, " tetrahedra cannot be checked");
   if (mesh.point_references.size() != n)
     failures.add(n, " vertices, but ", mesh.point_references.size(), " vertex references");
   for (std::size_t v = 0; v < n; ++v)

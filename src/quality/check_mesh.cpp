@@ -14,7 +14,7 @@ std::vector<Check_line> check_mesh(const Indexed_mesh_3& mesh, const Domain_3<De
   namespace q = quality_detail;
   const int exponent = domain != nullptr ? domain->exponent : mesh.exponent + exponent_for(mesh);
   if (exponent != mesh.exponent) return check_mesh(scaled_to(mesh, exponent), domain, options);
-  std::vector<Check_line> lines{q::check_indices(mesh)};
+  std::vector<Check_line> lines{q::check_indices(mesh, options.most_tetrahedra)};
   if (!lines[0].passed) return lines;
   lines.push_back(q::check_vertices(mesh));
   lines.push_back(q::check_duplicates(mesh));

@@ -56,7 +56,7 @@ class Failures {
   std::string first_;
 };
 
-Check_line check_indices(const Indexed_mesh_3& mesh);
+Check_line check_indices(const Indexed_mesh_3& mesh, std::size_t most_tetrahedra);
 Check_line check_vertices(const Indexed_mesh_3& mesh);
 Check_line check_duplicates(const Indexed_mesh_3& mesh);
 Check_line check_orientation(const Indexed_mesh_3& mesh);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <set>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -70,4 +71,22 @@ TEST_CASE("Several threads take slots at once", "[conforming]") {
   for (std::size_t t = 0; t < threads; ++t)
     for (const std::uint32_t i : taken[t]) wrong += array[i] / each != t;
   CHECK(wrong == 0);
+}
+
+TEST_CASE("No more slots are given out than there are numbers", "[conforming]") {
+  for (const std::uint32_t most : {1u, 64u, 100u, 300u}) {
+    Array array(most);
+    Array::Pool one, other;
+    std::set<std::uint32_t> taken;
+    const auto take_all = [&](Array::Pool& pool) {
+      while (true) taken.insert(array.take(pool));
+    };
+    taken.insert(array.take(other));
+    CHECK_THROWS_AS(take_all(one), std::length_error);
+    CHECK_THROWS_AS(take_all(other), std::length_error);
+    CHECK(taken.size() == most);
+    CHECK(*taken.rbegin() == most - 1);
+    other.free.push_back(0);
+    CHECK(array.take(other) == 0);  // what is given back may be used again
+  }
 }

@@ -156,3 +156,18 @@ TEST_CASE("A PLC scaled by a power of two gives the same mesh, scaled, however l
     CHECK(quality.max_radius_edge_ratio == pgdr::mesh_quality(whole).max_radius_edge_ratio);
   }
 }
+
+TEST_CASE("Meshes too large to be numbered or checked are refused", "[refinement]") {
+  const auto mesh = refined(box(), 0.2);
+  const std::size_t cells = mesh.triangulation().tds().number_of_cells();
+  CHECK_NOTHROW(pgdr::internal::Indexed_mesh_builder_3<pgdr::Default_kernel>(cells).gather(mesh));
+  CHECK_THROWS_AS(pgdr::internal::Indexed_mesh_builder_3<pgdr::Default_kernel>(cells - 1).gather(mesh), std::length_error);
+  const auto indexed = pgdr::indexed_mesh_3(mesh);
+  pgdr::Check_options options;
+  options.most_tetrahedra = indexed.tetrahedra.size();
+  CHECK(pgdr::all_passed(pgdr::check_mesh(indexed, nullptr, options)));
+  --options.most_tetrahedra;
+  const auto lines = pgdr::check_mesh(indexed, nullptr, options);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].detail.find("cannot be checked") != std::string::npos);
+}

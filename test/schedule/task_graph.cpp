@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <pgdr/parallel/thread_arena.h>
@@ -114,4 +116,27 @@ TEST_CASE("What a task throws comes out, and what depends on it does not run", "
     pgdr::run_task_graph(n, successors_of(graph), [&](std::size_t) { ++count; });
     CHECK(count == static_cast<int>(n));
   }
+}
+
+TEST_CASE("A thread that waits inside of a task takes no other task meanwhile", "[schedule]") {
+  // As a user's sizing field does that calls a parallel loop of its own.
+  constexpr std::size_t threads = 4, tasks = 200;
+  std::vector<int> busy(threads, 0);
+  std::atomic<std::size_t> entered_twice = 0, loops = 0;
+  pgdr::with_threads(threads, [&] {
+    pgdr::run_task_graph(
+        tasks, [](std::size_t, std::vector<std::uint32_t>& out) { out.clear(); },
+        [&](std::size_t) {
+          int& mine = busy[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+          entered_twice += mine++ != 0;
+          tbb::parallel_for(0, 64, [&](int) {
+            ++loops;
+            std::this_thread::sleep_for(std::chrono::microseconds(20));
+          });
+          --mine;
+        });
+    return 0;
+  });
+  CHECK(loops == 64 * tasks);
+  CHECK(entered_twice == 0);
 }

@@ -2,11 +2,14 @@
 #ifndef PGDR_CONFORMING_SLOT_ARRAY_H
 #define PGDR_CONFORMING_SLOT_ARRAY_H
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace pgdr {
@@ -24,7 +27,9 @@ class Slot_array {
     std::uint32_t next = 0, end = 0;
   };
 
-  Slot_array() = default;
+  /// `most`: how many slots there may be; `take` throws `std::length_error` rather than give out more. By default as many as can be told
+  /// apart where one bit of a number is taken for something else.
+  explicit Slot_array(std::uint32_t most = 0x80000000u) : most_(most) {}
   Slot_array(const Slot_array&) = delete;
   Slot_array& operator=(const Slot_array&) = delete;
   ~Slot_array() {
@@ -44,8 +49,10 @@ class Slot_array {
       return i;
     }
     if (pool.next == pool.end) {
-      pool.next = size_.fetch_add(batch, std::memory_order_acq_rel);
-      pool.end = pool.next + batch;
+      const std::uint32_t next = size_.load(std::memory_order_acquire) < most_ ? size_.fetch_add(batch, std::memory_order_acq_rel) : most_;
+      if (next >= most_) throw std::length_error("more than " + std::to_string(most_) + " pieces of segments or facets");
+      pool.next = next;
+      pool.end = std::min(next + batch, most_);
       make_block(block_of(pool.next));
     }
     return pool.next++;
@@ -75,6 +82,7 @@ class Slot_array {
 
   std::array<std::atomic<T*>, 32 - first_bits> blocks_{};
   std::atomic<std::uint32_t> size_{0};
+  std::uint32_t most_;
 };
 
 }  // namespace pgdr

@@ -11,6 +11,7 @@
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/vector_3.h>
+#include <pgdr/domain/detail/vertex_angle.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/reproducible_functions.h>
 
@@ -33,17 +34,6 @@ struct Small_angles {
 };
 
 namespace domain_detail {
-
-/// Angle between direction `d` and the part of a plane between the directions `p` and `q`.
-inline double angle_to_sector_deg(const Vec_3& d, const Vec_3& p, const Vec_3& q) {
-  const Vec_3 n = cross(p, q);
-  const double to_sides = std::min(angle_deg(d, p), angle_deg(d, q));
-  // The projection of d into the plane lies between p and q.
-  if (dot(cross(p, d), n) <= 0 || dot(cross(d, q), n) <= 0) return to_sides;
-  const double height = std::abs(dot(d, n));
-  const double to_plane = to_degrees(arc_tangent(height, length(cross(d, n))));
-  return std::min(to_sides, to_plane);
-}
 
 /// Smallest angle between consecutive directions around an axis, the gap across 360 degrees included.
 inline double smallest_gap_deg(std::vector<double>& angles) {
@@ -97,26 +87,19 @@ Small_angles small_angles_3(const Domain_3<K>& domain) {
 
   // Vertices: segments against segments, and against the facet triangles around the vertex.
   const Vertex_features features(domain);
-  for (std::size_t w = 0; w < points.size(); ++w) {
-    const auto segments = features.segments(w);
-    double& smallest = result.vertex_deg[w];
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      const auto& segment = domain.segments[segments[i]];
-      const auto other_end = [&](const auto& s) {
-        return s.vertices[0] == w ? s.vertices[1] : s.vertices[0];
-      };
-      const Vec_3 d = points[other_end(segment)] - points[w];
-      for (std::size_t j = i + 1; j < segments.size(); ++j)
-        smallest =
-            std::min(smallest, angle_deg(d, points[other_end(domain.segments[segments[j]])] - points[w]));
-      for (const auto& [facet, triangle] : features.triangles(w)) {
-        if (std::binary_search(segment.facets.begin(), segment.facets.end(), facet)) continue;
-        const auto& t = domain.facets[facet].triangles[triangle];
-        const std::size_t k = t[0] == w ? 0 : t[1] == w ? 1 : 2;
-        smallest = std::min(smallest, angle_to_sector_deg(d, points[t[(k + 1) % 3]] - points[w],
-                                                          points[t[(k + 2) % 3]] - points[w]));
-      }
+  Vertex_angle angle;
+  for (Index w = 0; w < points.size(); ++w) {
+    angle.clear();
+    for (const Index i : features.segments(w)) {
+      const auto& s = domain.segments[i];
+      angle.add_segment(points[s.vertices[0] == w ? s.vertices[1] : s.vertices[0]] - points[w], s.facets);
     }
+    for (const auto& [facet, triangle] : features.triangles(w)) {
+      const auto& t = domain.facets[facet].triangles[triangle];
+      const std::size_t k = t[0] == w ? 0 : t[1] == w ? 1 : 2;
+      angle.add_triangle(facet, points[t[(k + 1) % 3]] - points[w], points[t[(k + 2) % 3]] - points[w]);
+    }
+    result.vertex_deg[w] = angle.smallest();
   }
   return result;
 }

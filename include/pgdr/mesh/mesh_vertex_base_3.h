@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 
 #include <CGAL/Triangulation_vertex_base_3.h>
@@ -33,13 +34,14 @@ class Mesh_vertex_base_3 : public Vb {
     index_ = index;
   }
 
-  /// Distance to the nearest vertex at the time of insertion; 0 for input vertices, which may be refined at will.
+  /// Distance to the nearest vertex at the time of insertion, rounded down, so that no edge there was then is shorter; 0 for input
+  /// vertices, which may be refined at will.
   float insertion_radius() const { return insertion_radius_; }
-  void set_insertion_radius(double r) { insertion_radius_ = relaxed_radius_ = static_cast<float>(r); }
+  void set_insertion_radius(double r) { insertion_radius_ = relaxed_radius_ = rounded_down(r); }
 
   /// That of the first of its causes, where a vertex was let closer to others than its cause had been; else its own. At least its own.
   float relaxed_radius() const { return relaxed_radius_; }
-  void relax_radius(double r) { relaxed_radius_ = std::max(relaxed_radius_, static_cast<float>(r)); }
+  void relax_radius(double r) { relaxed_radius_ = std::max(relaxed_radius_, rounded_down(r)); }
 
   /// The two subsegments that meet in a vertex of dimension 1.
   std::array<std::uint32_t, 2>& subsegments() { return subsegments_; }
@@ -55,6 +57,11 @@ class Mesh_vertex_base_3 : public Vb {
   void set_territory(std::uint16_t t) { std::atomic_ref(territory_).store(t, std::memory_order_relaxed); }
 
  private:
+  static float rounded_down(double r) {
+    const auto nearest = static_cast<float>(r);
+    return static_cast<double>(nearest) > r ? std::nextafter(nearest, 0.0f) : nearest;
+  }
+
   std::uint32_t index_ = none;
   std::uint32_t number_ = none;
   std::array<std::uint32_t, 2> subsegments_{none, none};

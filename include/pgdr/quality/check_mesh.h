@@ -2,6 +2,7 @@
 #ifndef PGDR_QUALITY_CHECK_MESH_H
 #define PGDR_QUALITY_CHECK_MESH_H
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Check_line {
 struct Check_options {
   /// Bound of circumradius over shortest edge; exceeding it by up to 1e-9 of its value is forgiven.
   double radius_edge_ratio = 2;
+  /// Larger meshes are refused: the faces of tetrahedra are numbered with 32 bits.
+  std::size_t most_tetrahedra = (std::size_t{1} << 30) - 1;
 };
 
 /// Verifies a finished mesh from its arrays alone, sharing nothing with the code that makes meshes. One line

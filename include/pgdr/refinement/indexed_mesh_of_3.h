@@ -12,6 +12,8 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
@@ -45,9 +47,14 @@ class Indexed_mesh_builder_3 {
   static constexpr std::uint32_t none = 0xffffffffu;
 
  public:
-  /// All that needs the triangulation.
+  /// `most`: vertices or tetrahedra that may be numbered; more would not fit into 32 bits, of which one value means none.
+  explicit Indexed_mesh_builder_3(std::size_t most = none) : most_(most) {}
+
+  /// All that needs the triangulation. Throws `std::length_error` for a mesh too large to be numbered.
   void gather(const Mesh& mesh) {
     const Domain_3<K>& domain = mesh.domain();
+    if (std::max(mesh.triangulation().number_of_vertices(), mesh.triangulation().tds().number_of_cells()) > most_)
+      throw std::length_error("the mesh has more than " + std::to_string(most_) + " tetrahedra: they cannot be numbered");
     for (std::size_t k = 0; k < 3; ++k) lower_[k] = domain.lower[k], upper_[k] = domain.upper[k];
     exponent_ = domain.exponent;
     squared_bound_ = mesh.radius_edge_ratio() * mesh.radius_edge_ratio();
@@ -269,6 +276,7 @@ class Indexed_mesh_builder_3 {
     });
   }
 
+  std::size_t most_;
   // Of the domain and the parameters.
   std::array<double, 3> lower_{}, upper_{};
   int exponent_ = 0;

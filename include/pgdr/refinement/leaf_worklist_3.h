@@ -66,6 +66,11 @@ class Leaf_worklist_3 {
   void note_coarse(double radius) { coarsest_ = std::max(coarsest_, radius); }
   /// An element that was given up, with its Steiner point and its m as radius.
   void note_refused(const Vec_3& at, const Cell_id& id) {
+    // A leaf that is never split keeps them: those that are gone make room when there are as many as were there the last time.
+    if (refused_.size() >= 2 * refused_kept_ + 1024) {
+      std::erase_if(refused_, [](const auto& r) { return !r.second.is_live(); });
+      refused_kept_ = refused_.size();
+    }
     refused_.emplace_back(at, id);
     largest_refused_ = std::max(largest_refused_, static_cast<double>(id.radius));
   }
@@ -241,6 +246,7 @@ class Leaf_worklist_3 {
   Vertex_handle anchor_;
   double coarsest_ = 0;
   std::vector<std::pair<Vec_3, Cell_id>> refused_;
+  std::size_t refused_kept_ = 0;
   double largest_refused_ = 0;
   double largest_deferred_ = 0;
   bool torn_ = false;

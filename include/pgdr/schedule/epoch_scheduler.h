@@ -397,9 +397,9 @@ class Epoch_scheduler {
   /// How many points a leaf may insert in the next wave; stops where the budget is spent.
   std::size_t share_of_budget() {
     extra_ = 0;
-    if (parameters_.max_vertices == 0) return unlimited;
-    const std::size_t left = parameters_.max_vertices - std::min(parameters_.max_vertices, vertices_);
+    const std::size_t left = parameters_.vertex_limit() - std::min(parameters_.vertex_limit(), vertices_);
     if (left == 0) stopped_ = true;
+    if (parameters_.max_vertices == 0) return unlimited;
     extra_ = left % runnable_.size();
     return left / runnable_.size();
   }

@@ -9,6 +9,7 @@
 
 #include <tbb/flow_graph.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace pgdr {
 
@@ -22,7 +23,11 @@ std::size_t run_task_graph(std::size_t n, const Successors& successors, const Bo
   tbb::flow::graph graph;
   std::deque<Node> nodes;
   for (std::size_t k = 0; k < n; ++k)
-    nodes.emplace_back(graph, [&body, k](const tbb::flow::continue_msg&) { body(k); });
+    nodes.emplace_back(graph, [&body, k](const tbb::flow::continue_msg&) {
+      // A thread that waits for a parallel loop inside of the body, a user's sizing field say, must not take another task meanwhile: each
+      // has memory of its thread's in use.
+      tbb::this_task_arena::isolate([&body, k] { body(k); });
+    });
   std::vector<std::uint8_t> waits(n, 0);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 64), [&](const auto& range) {
     std::vector<std::uint32_t> out;
