@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <system_error>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -71,10 +75,17 @@ std::size_t peak_memory_bytes() {
 }
 
 std::size_t resident_memory_bytes() {
-  std::ifstream in("/proc/self/statm");
-  std::size_t size = 0, resident = 0;
-  if (!(in >> size >> resident)) return 0;
-  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  // Without an allocation: it is asked when there may be nothing left. The file holds numbers of pages: of all memory, of what is resident, ...
+  const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 0;
+  std::array<char, 128> text{};
+  const ssize_t size = read(file, text.data(), text.size());
+  close(file);
+  const char* const end = text.data() + std::max<ssize_t>(size, 0);
+  const char* const second = std::find(static_cast<const char*>(text.data()), end, ' ');
+  std::size_t pages = 0;
+  if (second == end || std::from_chars(second + 1, end, pages).ec != std::errc()) return 0;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
 std::optional<std::size_t> attainable_memory_bytes() {

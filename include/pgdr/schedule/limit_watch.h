@@ -27,10 +27,8 @@ class Limit_watch {
     thread_ = std::jthread([this, bytes, seconds, start](const std::stop_token& token) {
       // A refinement allocates some ten megabytes in this time on each thread, and nobody notices it.
       constexpr std::chrono::milliseconds interval(20);
-      std::mutex mutex;
-      std::unique_lock lock(mutex);
-      std::condition_variable_any sleep;
-      while (!sleep.wait_for(lock, token, interval, [] { return false; }) && !token.stop_requested()) {
+      std::unique_lock lock(mutex_);
+      while (!sleep_.wait_for(lock, token, interval, [] { return false; }) && !token.stop_requested()) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
         if (is_cancelled())
           reach(Limit::caller);
@@ -62,6 +60,8 @@ class Limit_watch {
   const std::atomic<bool>* cancel_;
   std::atomic<bool> flag_{false};
   Limit reached_ = Limit::none;
+  std::mutex mutex_;
+  std::condition_variable_any sleep_;
   std::jthread thread_;  // last: it uses the others
 };
 

@@ -39,12 +39,27 @@ std::size_t run_task_graph(std::size_t n, const Successors& successors, const Bo
       }
     }
   });
+  // Should memory end while tasks are started, those that have been must not outlive their nodes.
+  struct Waiter {
+    tbb::flow::graph& graph;
+    bool is_needed = true;
+    ~Waiter() {
+      if (!is_needed) return;
+      graph.cancel();
+      try {
+        graph.wait_for_all();
+      } catch (...) {
+        // Whatever they threw, the first exception is on its way.
+      }
+    }
+  } waiter{graph};
   std::size_t ready = 0;
   for (std::size_t k = 0; k < n; ++k)
     if (!waits[k]) {
       ++ready;
       nodes[k].try_put(tbb::flow::continue_msg());
     }
+  waiter.is_needed = false;
   graph.wait_for_all();
   return ready;
 }
