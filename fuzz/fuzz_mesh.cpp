@@ -28,7 +28,7 @@ class Bytes {
     const unsigned b = byte();
     double x = static_cast<double>(b & 15u);
     if ((b & 0xf0u) == 0xf0u) x += std::ldexp(static_cast<double>(byte()), -static_cast<int>(byte() % 60u));
-    if ((b & 0xf0u) == 0xe0u) x = std::ldexp(x, static_cast<int>(byte()) - 128);
+    if ((b & 0xf0u) == 0xe0u) x = std::ldexp(x, static_cast<int>(byte() % 41u) - 20);
     return (b & 0xf0u) == 0xd0u ? -x : x;
   }
   pgdr::Default_kernel::Point_3 point() {
@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   pgdr::Parameters parameters;
   parameters.max_vertices = 2000;
   parameters.threads = 2;
-  parameters.time_limit = 4;  // a box of 1 by 2^100 is all exact arithmetic: slow, but it stops when it is told to
+  parameters.time_limit = 1;  // a box of 1 by 2^40 is all exact arithmetic: slow, but it stops when it is told to
   parameters.verify = true;
   parameters.triangulate_facets = bytes.byte() & 1u;
   const unsigned size_code = bytes.byte();

@@ -491,10 +491,8 @@ class Delaunay_leaf_refiner_3 {
     result.limited += limited;
   }
 
-  /// Whether it is the minimum edge length l that a tetrahedron is given up for, and no small angle. Its circumcenter is its radius r
-  /// away from all vertices; in the ball of a subfacet, it is at most sqrt(2) times as far from one of its corners as their own
-  /// distance to the split point, and the same again if that is in the ball of a subsegment. So where nothing but the vertices of
-  /// such a piece is within l of its split point, r < 2 l. Where something else is, the refusal was noticed (`met_minimum`).
+  /// Whether it is the minimum edge length that a tetrahedron is given up for, and no small angle: because that was noticed, or, since of
+  /// an errand only the refusal comes back, because it is as small as one next to such pieces (docs/theory.md, section 11).
   bool is_limited(const Attempt& t, bool met_minimum) const {
     if (!met_minimum && t.ball.squared_radius >= 4 * min_edge_length_ * min_edge_length_) return false;
     return !acute_.contains(t.at, 4 * std::sqrt(t.ball.squared_radius));
