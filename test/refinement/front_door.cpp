@@ -322,3 +322,20 @@ TEST_CASE("The checker notices every corruption of a refined mesh", "[refinement
     }
   }
 }
+
+TEST_CASE("A segment in a void is not in the mesh, though its ends are", "[refinement]") {
+  // Found by fuzzing: its edges were listed, and no tetrahedron had them.
+  Plc plc = box({0, 0, 0}, {9, 9, 9});
+  add_box(plc, {3, 3, 3}, {6, 6, 6});
+  plc.holes.emplace_back(4, 5, 4.5);
+  const auto at = [&plc](double x, double y, double z) {
+    return static_cast<Index>(std::ranges::find(plc.vertices, Plc::Point_3(x, y, z)) - plc.vertices.begin());
+  };
+  plc.segments.push_back({at(3, 3, 3), at(6, 6, 6), 5});
+  for (const double size : {2.0, std::numeric_limits<double>::infinity()}) {
+    const auto mesh = refined(plc, size);
+    const auto indexed = pgdr::indexed_mesh_3(mesh);
+    CHECK(failures(pgdr::check_mesh(indexed, &mesh.domain())) == "");
+    CHECK(std::ranges::count(indexed.edge_references, 5) == 0);
+  }
+}

@@ -28,7 +28,7 @@ std::optional<pgdr::Indexed_mesh_3> checked(const char* name, std::size_t exempt
   if (is_plane) CHECK(inconsistency(mesh.triangulation(), mesh.complex()) == "");
   auto indexed = pgdr::indexed_mesh_3(mesh);
   CHECK(failures(pgdr::check_mesh(indexed, &mesh.domain())) == "");
-  // No more than a well-known program leaves.
+  // A third more than there are; nowhere more than half of what TetGen leaves (docs/robustness.md).
   CHECK(indexed.exempt.size() <= exempt);
   return indexed;
 }
@@ -41,21 +41,21 @@ TEST_CASE("Models with right angles only are meshed without exempt tetrahedra", 
 }
 
 TEST_CASE("A fandisk is meshed", "[models]") {
-  if (!checked("a05_fandisk.off", 1515)) PGDR_SKIP("the real models are not here");
+  if (!checked("a05_fandisk.off", 20)) PGDR_SKIP("the real models are not here");
 }
 
 TEST_CASE("An elephant is meshed", "[models]") {
-  if (!checked("a09_elephant.off", 1375)) PGDR_SKIP("the real models are not here");
+  if (!checked("a09_elephant.off", 10)) PGDR_SKIP("the real models are not here");
 }
 
 TEST_CASE("Long strips around cylinders are meshed", "[models]") {
-  const auto coupling = checked("a06_couplingdown.off", 2954);
+  const auto coupling = checked("a06_couplingdown.off", 2500);
   if (!coupling) PGDR_SKIP("the real models are not here");
   CHECK(coupling->tetrahedra.size() < 2 * 53520);  // TetGen's number
 }
 
 TEST_CASE("A knot is meshed", "[models]") {
-  if (!checked("a11_knot2.off", 9644)) PGDR_SKIP("the real models are not here");
+  if (!checked("a11_knot2.off", 500)) PGDR_SKIP("the real models are not here");
 }
 
 // In facets that were fused and are not quite plane, a piece changed sides without its tetrahedra being labelled anew (17), and one that was
@@ -66,7 +66,7 @@ TEST_CASE("Intersecting cones have every tetrahedron on its side of the surface"
 }
 
 TEST_CASE("A bunny is meshed", "[models]") {
-  if (!checked("a14_bunny00.off", 29145)) PGDR_SKIP("the real models are not here");
+  if (!checked("a14_bunny00.off", 120)) PGDR_SKIP("the real models are not here");
 }
 
 TEST_CASE("Needles are meshed", "[models]") {
@@ -74,11 +74,11 @@ TEST_CASE("Needles are meshed", "[models]") {
   const auto anchor = checked("a04_anchor.off", 900);
   if (!anchor) PGDR_SKIP("the real models are not here");
   CHECK(anchor->tetrahedra.size() < 4 * 21384);  // TetGen's number
-  if (!checked("a12_triceratops.off", 1791)) PGDR_SKIP("the real models are not here");
+  if (!checked("a12_triceratops.off", 1200)) PGDR_SKIP("the real models are not here");
 }
 
 TEST_CASE("Facets that meet at two degrees are meshed", "[models]") {
-  const auto hand = checked("a10_hand.off", 1678);
+  const auto hand = checked("a10_hand.off", 1250);
   if (!hand) PGDR_SKIP("the real models are not here");
   CHECK(hand->tetrahedra.size() < 2 * 29981);  // TetGen's number
 }
@@ -91,7 +91,7 @@ TEST_CASE("Thin walls are meshed", "[models]") {
 
 TEST_CASE("Regions and markers come through", "[models]") {
   for (const auto& [name, exempt] : {std::pair<const char*, std::size_t>{"a01_tetgen_example.poly", 0},
-                                     {"a21_cgal_patches_3regions.poly", 1080}}) {
+                                     {"a21_cgal_patches_3regions.poly", 30}}) {
     const auto mesh = checked(name, exempt);
     if (!mesh) PGDR_SKIP("the real models are not here");
     const Plc plc = pgdr::read_plc(*input_model(name));

@@ -118,6 +118,7 @@ class Indexed_mesh_builder_3 {
   void gather_cells(const Mesh& mesh) {
     const Tr& tr = mesh.triangulation();
     pool_.emplace(tr.tds().number_of_cells(), ids_.size());
+    meshed_subsegments_.resize(mesh.complex().subsegment_slots());
     struct Part {
       Tetrahedron_pool::Run run;
       std::vector<Element<3>> triangles;
@@ -140,6 +141,7 @@ class Indexed_mesh_builder_3 {
           const Cell_state state = cells[i]->state();
           if (state == Cell_state::poor || state == Cell_state::limited)
             part.unrefined.push_back(pool_->vertices[part.run.position + part.run.count - 1]);
+          if (cells[i]->subsegment_edges() != 0) mark_subsegments(mesh, cells[i]);
           if (cells[i]->has_subfacet()) gather_subfacets(mesh, cells[i], part.triangles);
         }
       }
@@ -160,6 +162,15 @@ class Indexed_mesh_builder_3 {
       if (used.load(std::memory_order_relaxed) == 0) used.store(1, std::memory_order_relaxed);
     }
     pool_->set_label(i, static_cast<std::size_t>(c->subdomain()));
+  }
+
+  /// A segment may lie in a void between two vertices of the mesh: only those on meshed cells are in it.
+  void mark_subsegments(const Mesh& mesh, Cell_handle c) {
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        if (c->subsegment_edges() & edge_bit(i, j))
+          if (const std::uint32_t s = mesh.complex().find_subsegment(c->vertex(i), c->vertex(j)); s != Complex::none)
+            std::atomic_ref<std::uint8_t>(meshed_subsegments_[s]).store(1, std::memory_order_relaxed);
   }
 
   static void prefetch([[maybe_unused]] typename Tr::Vertex_handle v) {
@@ -198,7 +209,7 @@ class Indexed_mesh_builder_3 {
       const auto& s = mesh.complex().subsegment(i);
       if (!s.alive() || !s.present) continue;
       const std::uint32_t a = s.vertices[0]->number(), b = s.vertices[1]->number();
-      if (used_[a] && used_[b]) edges_.push_back({{a, b}, mesh.domain().segments[s.segment].marker});
+      if (meshed_subsegments_[i]) edges_.push_back({{a, b}, mesh.domain().segments[s.segment].marker});
     }
   }
 
@@ -288,6 +299,7 @@ class Indexed_mesh_builder_3 {
   std::vector<std::uint8_t> dimensions_;
   std::vector<std::uint8_t> used_;      ///< whether a meshed cell has it
   std::vector<std::uint32_t> corners_;  ///< by domain vertex
+  std::vector<std::uint8_t> meshed_subsegments_;  ///< by slot, whether a meshed cell has it
   std::optional<Tetrahedron_pool> pool_;
   std::vector<std::array<std::uint32_t, 4>> unrefined_;
   std::vector<Element<3>> triangles_;
