@@ -4,8 +4,8 @@
 #include <utility>
 
 #include <pgdr/domain/make_domain_3.h>
-#include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/domain/scale.h>
+#include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/parameters.h>
 

@@ -28,12 +28,6 @@ double size_of(const Volume& v, bool ignore_region_sizes) {
 
 double count(double volume, double size) { return volume / size / size / size; }
 
-bool contains(const Sizing_box& box, const std::array<double, 3>& p) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (p[k] < box.lower[k] || p[k] > box.upper[k]) return false;
-  return true;
-}
-
 /// What the k-th box adds, which is finer than the later ones.
 double count_in_box(const Domain& domain, const Volumes_3<Default_kernel>& volumes, const std::vector<Sizing_box>& boxes,
                     std::size_t k) {
@@ -52,7 +46,7 @@ double count_in_box(const Domain& domain, const Volumes_3<Default_kernel>& volum
     for (std::size_t axis = 0; axis < 3; ++axis)
       p[axis] = lower[axis] + edge[axis] * (static_cast<double>(at[axis]) + 0.5) / samples;
     const auto finer = boxes.begin() + static_cast<std::ptrdiff_t>(k);
-    if (std::any_of(boxes.begin(), finer, [&p](const Sizing_box& box) { return contains(box, p); })) continue;
+    if (std::any_of(boxes.begin(), finer, [&p](const Sizing_box& box) { return box.contains(p); })) continue;
     const Default_kernel::Point_3 point(p[0], p[1], p[2]);
     const std::size_t v = volumes.locate(point);
     if (v != Volumes_3<Default_kernel>::none && volumes.volumes()[v].material) sum += count(part, boxes[k].radius);
@@ -63,9 +57,10 @@ double count_in_box(const Domain& domain, const Volumes_3<Default_kernel>& volum
 }  // namespace
 
 double expected_vertices(const Domain& domain, const Command_line_sizing& sizing, bool ignore_region_sizes) {
-  const Volumes_3<Default_kernel> volumes(domain);
   const double unit = unit_of(domain), size = sizing.outer()(Default_kernel::Point_3(0, 0, 0)) / unit;
   std::vector<Sizing_box> boxes = sizing.boxes();
+  if (size == infinity && boxes.empty() && domain.regions.empty()) return 0;  // nothing asks for a size: the volumes need not be found
+  const Volumes_3<Default_kernel> volumes(domain);
   for (Sizing_box& box : boxes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       box.lower[axis] /= unit;

@@ -173,8 +173,9 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std:
     report_open_edges(domain, most, problems);
     return;
   }
+  const Problem_writer<K> write(domain);
   const auto lost = [&](const char* what, const auto& seed, const auto& point) {
-    const std::string name = what + std::to_string(seed.seed + 1) + " at " + Problem_writer<K>(domain).point(point);
+    const std::string name = what + std::to_string(seed.seed + 1) + " at " + write.point(point);
     if (seed.facet == Volumes_3<K>::none) {
       problems.push_back({Kind::bad_seed, name + " lies in no enclosed volume and is left out"});
       return;
@@ -182,7 +183,7 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std:
     const auto facet = static_cast<Index>(seed.facet);
     problems.push_back({Kind::ambiguous_seed,
                         name + " lies on " + feature_at(domain, facet, point) + ", so that it names no volume",
-                        {Problem_writer<K>(domain).input_facet(facet)},
+                        {write.input_facet(facet)},
                         {}});
   };
   for (const auto& seed : volumes.lost_holes()) lost("hole seed ", seed, domain.holes[seed.seed]);

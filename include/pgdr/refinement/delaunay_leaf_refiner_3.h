@@ -516,6 +516,7 @@ class Delaunay_leaf_refiner_3 {
     const bool is_skipped = id.cell->subdomain() == 0 && w.task_.outside_target == std::numeric_limits<double>::infinity();
     if (is_skipped) return;
     Attempt t = attempt(id, std::move(tried));
+    w.features_.has_met_minimum();  // what was refused for others' sake depends on what this thread did before
     if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
     if (t.is_outside()) return refine_outside(w, t, list, result);
     if (w.task_.territory != 0 && is_steep(t.ball)) return hand_on(t, list);

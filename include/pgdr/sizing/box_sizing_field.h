@@ -19,6 +19,10 @@ struct Sizing_box {
   std::array<double, 3> lower{};
   std::array<double, 3> upper{};
   double radius = 0;
+
+  bool contains(const std::array<double, 3>& p) const {
+    return lower[0] <= p[0] && p[0] <= upper[0] && lower[1] <= p[1] && p[1] <= upper[1] && lower[2] <= p[2] && p[2] <= upper[2];
+  }
 };
 
 /// A sizing field with boxes in which it is finer: every bound holds, so the smallest one wins where boxes
@@ -48,7 +52,7 @@ class Box_sizing_field {
     if (boxes_.empty()) return bound;
     const std::array<double, 3> c{CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
     for (const Sizing_box& box : boxes_) {
-      if (contains(box, c)) return std::min(bound, box.radius);
+      if (box.contains(c)) return std::min(bound, box.radius);
     }
     return bound;
   }
@@ -59,11 +63,6 @@ class Box_sizing_field {
   const std::vector<Sizing_box>& boxes() const { return boxes_; }
 
  private:
-  static bool contains(const Sizing_box& box, const std::array<double, 3>& c) {
-    return box.lower[0] <= c[0] && c[0] <= box.upper[0] && box.lower[1] <= c[1] && c[1] <= box.upper[1] &&
-           box.lower[2] <= c[2] && c[2] <= box.upper[2];
-  }
-
   Outer outer_;
   std::vector<Sizing_box> boxes_;
 };
