@@ -25,10 +25,11 @@ Interrupt_guard::Interrupt_guard() {
 }
 
 Interrupt_guard::~Interrupt_guard() {
+  interrupted = false;
   sigaction(SIGINT, &previous_interrupt_, nullptr);
   sigaction(SIGTERM, &previous_terminate_, nullptr);
 }
 
-const std::atomic<bool>& Interrupt_guard::flag() const { return interrupted; }
+const std::atomic<bool>& Interrupt_guard::flag() { return interrupted; }
 
 }  // namespace pgdr::app

@@ -17,7 +17,8 @@ class Interrupt_guard {
   Interrupt_guard(const Interrupt_guard&) = delete;
   Interrupt_guard& operator=(const Interrupt_guard&) = delete;
 
-  const std::atomic<bool>& flag() const;
+  /// False outside of its life.
+  static const std::atomic<bool>& flag();
 
  private:
   struct sigaction previous_interrupt_ {};

@@ -193,7 +193,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   check_outputs(arguments);
 
   Phase_timer timer;
-  Progress_line progress(!arguments.quiet);
+  Progress_line progress(!arguments.quiet, &Interrupt_guard::flag());
   progress.show("reading " + arguments.input);
   std::optional<Domain> domain;
   Run_summary run;
@@ -219,7 +219,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   run.threads = thread_count();
   Indexed_mesh_3 mesh;
   const Interrupt_guard interrupt;
-  p.cancel = &interrupt.flag();
+  p.cancel = &Interrupt_guard::flag();
   p.progress = [&progress](const Progress& now) { progress.update(now); };
   {
     auto refined = refine_mesh_3(Domain(*domain), sizing, p);
@@ -235,6 +235,7 @@ int run_mesh(const Mesh_arguments& arguments) {
     mesh = indexed_mesh_3(std::move(refined));
   }
   timer.end_phase("numbering");
+  progress.show("measuring");
   run.quality = mesh_quality(mesh);
   run.checksum = mesh_checksum(mesh);
   run.exempt_tetrahedra = mesh.exempt.size();

@@ -2,60 +2,71 @@
 #ifndef PGDR_REPORT_PROGRESS_LINE_H
 #define PGDR_REPORT_PROGRESS_LINE_H
 
+#include <array>
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <cstddef>
 #include <cstdio>
-#include <string>
+#include <mutex>
 #include <string_view>
-
-#include <unistd.h>
+#include <thread>
 
 #include <pgdr/parameters.h>
-#include <pgdr/report/format.h>
 
 namespace pgdr {
 
-/// One line on a terminal that says what is going on, rewritten in place at most ten times a second.
+/// Says what is going on and for how long, whatever the program is busy with: a thread of its own writes it, on a terminal in one line that
+/// is rewritten in place ten times a second, elsewhere as a line every ten seconds. Gone when the object is.
 ///
-/// It writes nothing where the stream is no terminal, and is gone when the object is.
+/// Calls may come from any thread. Where no thread can be had, the line changes with the calls only.
 class Progress_line {
  public:
-  /// `enabled` false: write nothing at all.
-  explicit Progress_line(bool enabled, std::FILE* stream = stderr)
-      : stream_(enabled && isatty(fileno(stream)) == 1 ? stream : nullptr) {}
-  ~Progress_line() { erase(); }
+  /// `enabled` false: write nothing at all. `interrupt`: a flag whose rise is confirmed within a tenth of a second.
+  explicit Progress_line(bool enabled, const std::atomic<bool>* interrupt = nullptr, std::FILE* stream = stderr);
+  ~Progress_line();
   Progress_line(const Progress_line&) = delete;
   Progress_line& operator=(const Progress_line&) = delete;
 
-  /// Shows `text` at once: the beginning of a phase.
-  void show(std::string_view text) {
-    if (stream_ == nullptr) return;
-    last_ = Clock::now();
-    // \r and "erase to the end of the line" (ECMA-48): a shorter line leaves nothing of a longer one.
-    std::fprintf(stream_, "\r%.*s\x1b[K", static_cast<int>(text.size()), text.data());
-    std::fflush(stream_);
-    shown_ = true;
-  }
+  /// A phase begins: `text` is shown at once.
+  void show(std::string_view text);
+  /// How far the refinement is; its phase begins with the first call that names it.
+  void update(const Progress& progress);
+  /// Nothing is shown until the next `show` or `update`.
+  void erase();
 
-  /// Shows how far the refinement is, unless the line is fresh.
-  void update(const Progress& progress) {
-    if (stream_ == nullptr || Clock::now() - last_ < std::chrono::milliseconds(100)) return;
-    show(std::string(progress.phase) + ": " + with_separators(progress.vertices) + " vertices, " +
-         with_separators(progress.pending) + " elements pending");
-  }
-
-  void erase() {
-    if (!shown_) return;
-    std::fputs("\r\x1b[K", stream_);
-    std::fflush(stream_);
-    shown_ = false;
-  }
+  /// How often the thread looks, and how often it writes where there is no terminal; tests set other values.
+  struct Pace {
+    std::chrono::milliseconds look{100};
+    std::chrono::milliseconds log{10'000};
+  };
+  void set_pace(Pace pace);
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Text = std::array<char, 256>;
+
+  void run(std::stop_token stop);
+  void confirm_interrupt();
+  void write_line();
+  void write_in_place();
+  void write_to_log();
+  void erase_in_place();
 
   std::FILE* stream_;
-  Clock::time_point last_{};
-  bool shown_ = false;
+  const std::atomic<bool>* interrupt_;
+  bool is_terminal_;
+  bool is_active_ = false;  ///< there is something to say
+  bool is_shown_ = false;   ///< it stands on the terminal
+  bool is_confirmed_ = false;
+  Text phase_{};
+  Text detail_{};
+  Pace pace_;
+  Clock::time_point phase_began_{};
+  Clock::time_point written_{};
+  std::mutex mutex_;  ///< of all the above
+  std::condition_variable_any wake_;
+  std::jthread thread_;  ///< last: it ends before the rest goes
 };
 
 }  // namespace pgdr
