@@ -186,6 +186,9 @@ void require_extension(const std::string& option, const std::filesystem::path& p
 
 void require_distinct_files(const std::vector<std::filesystem::path>& inputs,
                             const std::vector<std::filesystem::path>& outputs) {
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (same_file(inputs[i], inputs[j])) throw Usage_error("'" + inputs[i].string() + "' is named as input twice");
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (const auto& input : inputs) {
       if (same_file(input, outputs[i]))

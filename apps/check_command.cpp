@@ -22,7 +22,7 @@ namespace {
 
 struct Check_arguments {
   std::string mesh;
-  std::string plc;
+  std::vector<std::string> inputs;
   std::string radius_edge_ratio;
   std::string threads;
   Domain_options domain;
@@ -36,8 +36,8 @@ int run_check(const Check_arguments& arguments) {
   require_extension("MESH", arguments.mesh, {".mesh"});
 
   std::optional<Domain> domain;
-  if (!arguments.plc.empty()) {
-    domain = understand(read_input(arguments.plc, arguments.domain).plc, arguments.domain);
+  if (!arguments.inputs.empty()) {
+    domain = understand(read_input(arguments.inputs, arguments.domain), arguments.domain);
     print_or_throw(find_problems(*domain));
   }
   const std::vector<Check_line> lines =
@@ -63,9 +63,10 @@ Command add_check_command(CLI::App& program) {
   CLI::App* parser = program.add_subcommand("check", "Verify a written mesh, property by property");
   parser->add_option("MESH", arguments->mesh, "A .mesh file")->required()->type_name("");
   parser
-      ->add_option("--plc", arguments->plc,
-                   "The input that it was made from: verify that the mesh conforms to it")
-      ->type_name("INPUT");
+      ->add_option("--plc", arguments->inputs,
+                   "The input that it was made from: verify that the mesh conforms to it; repeatable for an assembly")
+      ->type_name("INPUT")
+      ->allow_extra_args(false);
   parser
       ->add_option("--radius-edge-ratio", arguments->radius_edge_ratio,
                    "Bound of circumradius over shortest edge to verify (default 2)")

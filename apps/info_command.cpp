@@ -25,7 +25,7 @@ namespace pgdr::app {
 namespace {
 
 struct Info_arguments {
-  std::string input;
+  std::vector<std::string> inputs;
   std::string write_plc;
   std::string problems;
   Domain_options domain;
@@ -96,20 +96,21 @@ void check_outputs(const Info_arguments& arguments) {
     files.emplace_back(arguments.write_plc);
   }
   add_problem_file(arguments.problems, files);
-  require_distinct_files({arguments.input}, files);
+  require_distinct_files({arguments.inputs.begin(), arguments.inputs.end()}, files);
   for (const auto& file : files) check_writable(file);
 }
 
 int run_info(const Info_arguments& arguments) {
   check_outputs(arguments);
-  const Input input = read_input(arguments.input, arguments.domain);
+  const Input input = read_input(arguments.inputs, arguments.domain);
+  if (!input.repair.is_none()) print_line("repaired", repair_text(input.repair));
   if (!input.simplification.is_none())
     print_line("simplified", simplification_text(input.simplification) + "; --tolerance 0 keeps them");
   if (!input.planarization.is_none())
     print_line("made plane", counted(input.planarization.flattened_facets, "facet", "facets") + ": " +
                                  planarization_text(input.planarization) + "; --tolerance 0 keeps them");
   with_problem_file(arguments.problems, input.plc, [&] {
-    const Domain domain = understand(input.plc, arguments.domain);
+    const Domain domain = understand(input, arguments.domain);
     const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(arguments.problems));
     print_summary(summary);
     std::cout.flush();
@@ -124,7 +125,7 @@ int run_info(const Info_arguments& arguments) {
 Command add_info_command(CLI::App& program) {
   const auto arguments = std::make_shared<Info_arguments>();
   CLI::App* parser = program.add_subcommand("info", "Describe an input and what is wrong with it");
-  parser->add_option("INPUT", arguments->input, "A PLC or a closed surface, as for mesh")
+  parser->add_option("INPUT", arguments->inputs, "A PLC or a closed surface, as for mesh")
       ->required()
       ->type_name("");
   parser->add_option("--write-plc", arguments->write_plc, "Write the PLC as understood and fused, as .poly")

@@ -41,7 +41,7 @@ namespace {
 
 /// The command line as typed.
 struct Mesh_arguments {
-  std::string input;
+  std::vector<std::string> inputs;
   std::vector<std::string> outputs;
   std::string size;
   std::vector<std::string> refine_boxes;
@@ -65,8 +65,8 @@ struct Mesh_arguments {
 
 void add_options(CLI::App& parser, Mesh_arguments& arguments) {
   parser
-      .add_option("INPUT", arguments.input,
-                  "A PLC (.poly, .smesh) or a closed surface (.off, .stl, .ply, .obj)")
+      .add_option("INPUT", arguments.inputs,
+                  "A PLC (.poly, .smesh) or a closed surface (.off, .stl, .ply, .obj); several are the parts of an assembly, a region each")
       ->required()
       ->type_name("");
   parser.add_option("-o,--output", arguments.outputs, "File to write, .vtu or .mesh; repeatable")
@@ -160,7 +160,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
     p.radius_edge_ratio = parse_ratio_bound("--radius-edge-ratio", arguments.radius_edge_ratio);
   if (!arguments.placement.empty()) p.placement = parse_placement(arguments.placement);
   p.coplanar_tolerance = arguments.domain.fusing_tolerance();
-  p.triangulate_facets = arguments.domain.triangulate;
+  p.triangulate_facets = arguments.domain.accepts_bent_polygons();
   p.ignore_region_sizes = arguments.ignore_region_sizes;
   if (!arguments.min_edge_length.empty())
     p.min_edge_length = parse_positive("--min-edge-length", arguments.min_edge_length);
@@ -182,7 +182,7 @@ void check_outputs(const Mesh_arguments& arguments) {
   if (!arguments.stats.empty() && arguments.stats != "-") files.emplace_back(arguments.stats);
   if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
   add_problem_file(arguments.problems, files);
-  require_distinct_files({arguments.input}, files);
+  require_distinct_files({arguments.inputs.begin(), arguments.inputs.end()}, files);
   for (const auto& file : files) check_writable(file);
 }
 
@@ -194,18 +194,19 @@ int run_mesh(const Mesh_arguments& arguments) {
 
   Phase_timer timer;
   Progress_line progress(!arguments.quiet, &Interrupt_guard::flag());
-  progress.show("reading " + arguments.input);
+  progress.show("reading " + names_of(arguments.inputs));
   std::optional<Domain> domain;
   Run_summary run;
   {
-    const Input input = read_input(arguments.input, arguments.domain);
+    const Input input = read_input(arguments.inputs, arguments.domain);
     const Plc& plc = input.plc;
+    run.repair = input.repair;
     run.simplification = input.simplification;
     run.planarization = input.planarization;
     timer.end_phase("reading");
     progress.show("checking the input");
     with_problem_file(arguments.problems, plc, [&] {
-      domain = understand(plc, arguments.domain);
+      domain = understand(input, arguments.domain);
       const Problems problems = find_problems(*domain, pairs_to_list(arguments.problems));
       progress.erase();
       print_or_throw(problems);
@@ -260,7 +261,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   if (!arguments.trace.empty()) write_trace(run.schedule, arguments.trace);
   if (!arguments.quiet && arguments.stats != "-") print_summary(std::cout, run);
   if (run.stop == Stop_reason::finished && !is_usable) {
-    print_message(arguments.input + " encloses nothing that is not a hole: there are no tetrahedra, and nothing was written");
+    print_message(names_of(arguments.inputs) + " encloses nothing that is not a hole: there are no tetrahedra, and nothing was written");
     return exit_bad_input;
   }
   if (run.stop == Stop_reason::finished) return exit_done;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "read_domain.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <pgdr/domain/make_domain_3.h>
@@ -28,6 +29,12 @@ void Domain_options::add_to(CLI::App& parser) {
           "(default 1e-6)")
       ->type_name("T");
   parser.add_flag("--triangulate", triangulate, "Accept polygons that are not planar, as triangles");
+  parser.add_flag("--repair", repair,
+                  "Make dirty surfaces valid: duplicates, cracks up to the tolerance, holes, wrong orientations, self-intersections");
+  parser
+      .add_option("--fill-holes", largest_hole,
+                  "With --repair: the width of the largest hole to be filled, as --tolerance is given (default: 0.5d)")
+      ->type_name("SIZE");
   parser
       .add_option(
           "--nested", nesting,
@@ -50,6 +57,8 @@ void Domain_options::add_to(CLI::App& parser) {
 void Domain_options::check() const {
   fusing_tolerance();
   if (!tolerance.empty()) parse_length("--tolerance", tolerance);
+  if (!largest_hole.empty()) parse_length("--fill-holes", largest_hole);
+  if (!largest_hole.empty() && !repair) throw Usage_error("--fill-holes goes with --repair");
   for (const std::string& text : holes) parse_point("--hole", text);
   for (const std::string& text : regions) parse_region(text);
 }
@@ -61,15 +70,40 @@ double Domain_options::fusing_tolerance() const {
 
 namespace {
 
+constexpr Length default_tolerance{1e-6, true};
+
 /// STL is single precision, and what is closer than that has no meaning; what is written by hand has.
-Length simplification(const std::filesystem::path& path, const Domain_options& options) {
+Length simplification(const std::vector<std::string>& files, const Domain_options& options) {
   if (!options.tolerance.empty()) return parse_length("--tolerance", options.tolerance);
-  return is_surface_file(path) ? Length{1e-6, true} : Length{};
+  return std::ranges::all_of(files, is_surface_file) ? default_tolerance : Length{};
 }
 
-bool can_be_meshed(const Plc& plc, const Domain_options& options) {
+/// Of the bounding box of all parts.
+double bounding_diagonal(const std::vector<Plc>& parts) {
+  Plc all;
+  for (const Plc& part : parts) all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+  all.exponent = parts[0].exponent;
+  return pgdr::bounding_diagonal(all);
+}
+
+/// What is in the files, repaired if it shall be, or if there are several.
+Plc repaired_input(const std::vector<std::string>& files, const Domain_options& options, Repair_report& report) {
+  std::vector<Plc> parts;
+  for (const std::string& file : files) parts.push_back(normalized(read_plc(file)));
+  if (!options.repair && parts.size() == 1) return std::move(parts[0]);
+  for (const Plc& part : parts)
+    if (part.exponent != parts[0].exponent)
+      throw Input_error(Input_problem::Kind::bad_coordinate, "the parts of the assembly are too different in size");
+  const double diagonal = bounding_diagonal(parts);
+  const Length gap = options.tolerance.empty() ? default_tolerance : parse_length("--tolerance", options.tolerance);
+  const Length hole = options.largest_hole.empty() ? Length{options.repair ? 0.5 : 0.0, true} : parse_length("--fill-holes", options.largest_hole);
+  const Repair_options how{gap.in_units(diagonal), hole.in_units(diagonal)};
+  return parts.size() == 1 ? repair(parts[0], how, &report) : assemble(parts, how, &report);
+}
+
+bool can_be_meshed(const Plc& plc, const Domain_options& options, double fusing_tolerance) {
   try {
-    return find_problems(understand(plc, options), 1).errors.empty();
+    return find_problems(make_domain_3(plc, fusing_tolerance, options.accepts_bent_polygons()), 1).errors.empty();
   } catch (const Input_error&) {
     return false;
   }
@@ -77,9 +111,19 @@ bool can_be_meshed(const Plc& plc, const Domain_options& options) {
 
 }  // namespace
 
-Input read_input(const std::filesystem::path& path, const Domain_options& options) {
-  Input input{normalized(read_plc(path)), {}, {}};
+std::string names_of(const std::vector<std::string>& files) {
+  std::string names;
+  for (const std::string& file : files) names += (names.empty() ? "" : ", ") + file;
+  return names;
+}
+
+Input read_input(const std::vector<std::string>& files, const Domain_options& options) {
+  Input input;
   Plc& plc = input.plc;
+  plc = repaired_input(files, options, input.repair);
+  input.fusing_tolerance = options.fusing_tolerance();
+  // Two sheets of a repaired surface may be closer to each other than facets are bent when they are fused.
+  if (!input.repair.is_none() && !can_be_meshed(plc, options, input.fusing_tolerance)) input.fusing_tolerance = 0;
   const double unit = unit_of(plc);
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
   for (const std::string& text : options.holes) {
@@ -94,21 +138,24 @@ Input read_input(const std::filesystem::path& path, const Domain_options& option
   }
   plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
 
-  const double tolerance = simplification(path, options).in_units(bounding_diagonal(plc));
+  const double tolerance = simplification(files, options).in_units(bounding_diagonal(plc));
   if (tolerance <= 0) return input;
   Simplification done;
   Plc simplified = simplify(plc, tolerance, &done);
-  if (!done.is_none() && can_be_meshed(simplified, options)) input = {std::move(simplified), done, {}};
+  if (!done.is_none() && can_be_meshed(simplified, options, input.fusing_tolerance)) {
+    plc = std::move(simplified);
+    input.simplification = done;
+  }
   try {
-    input.plc = planarize(input.plc, options.fusing_tolerance(), options.triangulate, &input.planarization);
+    input.plc = planarize(input.plc, input.fusing_tolerance, options.accepts_bent_polygons(), &input.planarization);
   } catch (const Input_error&) {
     // Said again, and with the file of problems, when the input is understood.
   }
   return input;
 }
 
-Domain understand(const Plc& plc, const Domain_options& options) {
-  return make_domain_3(plc, options.fusing_tolerance(), options.triangulate);
+Domain understand(const Input& input, const Domain_options& options) {
+  return make_domain_3(input.plc, input.fusing_tolerance, options.accepts_bent_polygons());
 }
 
 void add_problems_option(CLI::App& parser, std::string& path) {

@@ -14,6 +14,7 @@
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
 #include <pgdr/io/write_problems.h>
+#include <pgdr/repair/repair.h>
 #include <pgdr/simplify/planarize.h>
 #include <pgdr/simplify/simplify.h>
 
@@ -26,15 +27,20 @@ struct Domain_options {
   std::string tolerance;           ///< empty: 1e-6 of the diagonal for surface files, 0 for PLCs
   std::string coplanar_tolerance;  ///< empty: the library's default
   bool triangulate = false;
+  bool repair = false;
+  std::string largest_hole;  ///< empty: half of the diagonal
   std::string nesting;  ///< empty: the file format's own
   std::vector<std::string> holes;    ///< seeds besides those of the file
   std::vector<std::string> regions;  ///< seeds that count before those of the file
 
-  /// Adds `--tolerance`, `--coplanar-tolerance`, `--triangulate`, `--nested`, `--hole` and `--region`; the object must outlive the parsing.
+  /// Adds `--tolerance`, `--coplanar-tolerance`, `--triangulate`, `--repair`, `--fill-holes`, `--nested`, `--hole` and `--region`; the object must outlive the parsing.
   void add_to(CLI::App& parser);
 
   /// Refuses nonsense before anything is read. Throws `Usage_error`.
   void check() const;
+
+  /// Polygons that are not plane become triangles.
+  bool accepts_bent_polygons() const { return triangulate || repair; }
 
   /// The number behind `coplanar_tolerance`. Throws `Usage_error`.
   double fusing_tolerance() const;
@@ -43,16 +49,22 @@ struct Domain_options {
 /// An input as it is meshed.
 struct Input {
   Plc plc;  ///< with the seeds of the options
+  double fusing_tolerance = 0;  ///< that of the options, or 0 where what was repaired would not be valid with it
+  Repair_report repair;
   Simplification simplification;
   Planarization planarization;
 };
 
-/// Reads `path`, simplifies it as far as the options say, and makes its fused facets plane; not at all if the result could not be meshed,
-/// so that what is wrong is said of what is in the file. Throws `Input_error`.
-Input read_input(const std::filesystem::path& path, const Domain_options& options);
+/// Reads a file, or several as the parts of an assembly, repairs it if the options say so, simplifies it as far as they say, and makes its
+/// fused facets plane; the latter not at all if the result could not be meshed, so that what is wrong is said of what is in the file.
+/// Throws `Input_error`.
+Input read_input(const std::vector<std::string>& files, const Domain_options& options);
+
+/// Files as they are named in messages.
+std::string names_of(const std::vector<std::string>& files);
 
 /// Understands what was read. Throws `Input_error` for what cannot be understood at all.
-Domain understand(const Plc& plc, const Domain_options& options);
+Domain understand(const Input& input, const Domain_options& options);
 
 /// Adds `--problems`.
 void add_problems_option(CLI::App& parser, std::string& path);

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <initializer_list>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 #include <CGAL/assertions.h>
 #include <CGAL/assertions_behaviour.h>
@@ -54,6 +57,19 @@ int parse_and_run(int argc, char** argv) {
   throw Usage_error("no command given: mesh, check or info (--help tells what is possible)");
 }
 
+/// What the user may do about an input that cannot be meshed.
+void print_remedy(const Input_error& error, const std::vector<std::string>& words) {
+  using Kind = Input_problem::Kind;
+  const auto has = [&](std::initializer_list<Kind> kinds) {
+    return std::ranges::any_of(error.problems(), [&](const Input_problem& p) { return std::ranges::find(kinds, p.kind) != kinds.end(); });
+  };
+  const bool repairs = std::ranges::find(words, "--repair") != words.end();
+  if (!repairs && has({Kind::self_intersection, Kind::open_surface, Kind::degenerate_facet, Kind::non_planar_facet}))
+    print_message("--repair may make it valid: it closes holes and cracks, and divides what intersects");
+  else if (repairs && has({Kind::open_surface}))
+    print_message("--fill-holes 1d fills holes of any size; a sheet that encloses nothing cannot be meshed");
+}
+
 int report(int exit_code, const std::string& message) {
   print_message(message);
   return exit_code;
@@ -75,6 +91,7 @@ int run_program(int argc, char** argv) {
   } catch (const Input_error& error) {
     if (error.problems().empty()) return report(exit_bad_input, error.what());
     print_problems(error.problems());
+    print_remedy(error, {argv + 1, argv + argc});
     return exit_bad_input;
   } catch (const Size_error& error) {
     return report(exit_stopped, error.what());

@@ -60,6 +60,7 @@ std::string stats_json(const Run_summary& run) {
     if (exempt_angles.size() < most_angles)
       exempt_angles.push_back({{"degrees", a.degrees}, {"between", a.between}, {"tetrahedra", a.tetrahedra}});
 
+  const Repair_report& repair = run.repair;
   const Simplification& simplification = run.simplification;
   const Planarization& planarization = run.planarization;
   const Json json = {{"planarization",
@@ -67,6 +68,18 @@ std::string stats_json(const Run_summary& run) {
                        {"bent_facets", planarization.bent_facets},
                        {"moved_vertices", planarization.moved_vertices},
                        {"largest_change", planarization.largest_change}}},
+                     {"repair",
+                      {{"merged_vertices", repair.merged_vertices},
+                       {"degenerate_triangles", repair.degenerate_triangles},
+                       {"duplicate_triangles", repair.duplicate_triangles},
+                       {"closed_cracks", repair.closed_cracks},
+                       {"filled_holes", repair.filled_holes},
+                       {"filling_triangles", repair.filling_triangles},
+                       {"turned_triangles", repair.turned_triangles},
+                       {"intersecting_pairs", repair.intersecting_pairs},
+                       {"inner_triangles", repair.inner_triangles},
+                       {"overlaps", repair.overlaps},
+                       {"largest_move", repair.largest_move}}},
                      {"simplification",
                       {{"collapsed_edges", simplification.collapsed_edges},
                        {"removed_needles", simplification.removed_needles},

@@ -24,6 +24,7 @@ ALLOWED = {
     "octree": set(),
     "independence": {"octree"},
     "simplify": {"domain"},
+    "repair": {"domain"},
     "acute": {"domain", "mesh"},
 }
 # For a room: the rooms that it must not include.

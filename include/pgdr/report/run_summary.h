@@ -15,6 +15,7 @@
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/report/format.h>
 #include <pgdr/report/run_statistics.h>
+#include <pgdr/repair/repair.h>
 #include <pgdr/simplify/planarize.h>
 #include <pgdr/simplify/simplify.h>
 
@@ -22,6 +23,7 @@ namespace pgdr {
 
 /// Everything that is said about a run when it is over.
 struct Run_summary {
+  Repair_report repair;
   Simplification simplification;
   Planarization planarization;
   Mesh_quality quality;
@@ -75,6 +77,25 @@ inline void print_exempt_angles(std::ostream& out, const std::vector<Exempt_angl
   line(rest, counted(angles.size() - most, "other angle", "others"));
 }
 
+/// What was done about input that was not valid.
+inline std::string repair_text(const Repair_report& r) {
+  std::string text;
+  const auto add = [&text](std::size_t count, const char* one, const char* many, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many) + " " + what;
+  };
+  add(r.merged_vertices, "vertex", "vertices", "merged");
+  add(r.degenerate_triangles, "triangle", "triangles", "without area taken away");
+  add(r.duplicate_triangles, "duplicate", "duplicates", "taken away");
+  add(r.closed_cracks, "edge", "edges", "divided along cracks");
+  add(r.filled_holes, "hole", "holes", "filled");
+  add(r.turned_triangles, "triangle", "triangles", "turned round");
+  add(r.intersecting_pairs, "pair", "pairs", "of triangles that met divided");
+  add(r.inner_triangles, "triangle", "triangles", "inside taken away");
+  add(r.overlaps, "overlap", "overlaps", "given to the later part");
+  if (r.largest_move > 0) text += "; vertices moved by at most " + significant(r.largest_move, 3);
+  return text;
+}
+
 /// What was taken away of the input.
 inline std::string simplification_text(const Simplification& s) {
   return counted(s.collapsed_edges, "short edge", "short edges") + " and " + counted(s.removed_needles, "needle", "needles") +
@@ -96,6 +117,7 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
     if (!remark.empty()) out << "  " << remark;
     out << '\n';
   };
+  if (!run.repair.is_none()) out << std::left << std::setw(18) << "repaired" << std::right << repair_text(run.repair) << '\n';
   if (!run.simplification.is_none())
     line("simplified", with_separators(run.simplification.facets), "facets: " + simplification_text(run.simplification));
   if (!run.planarization.is_none())

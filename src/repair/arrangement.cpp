@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where triangles meet: computed exactly, then rounded.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+#include <CGAL/Cartesian_converter.h>
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Object.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <pgdr/domain/detail/intersecting_triangles.h>
+
+#include "steps.h"
+
+namespace pgdr::repair_detail {
+
+namespace {
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point_3 = Exact::Point_3;
+using Point_2 = Exact::Point_2;
+using Pairs = std::vector<std::pair<Index, Index>>;
+using domain_detail::to_work_point;
+
+/// New points are rounded to multiples of 2^-bits of the size of the input. Coarser each time that rounding makes new intersections, so that
+/// what is too close to be told apart becomes one.
+constexpr int finest_bits = 40;
+constexpr int bits_per_round = 2;
+constexpr int rounds_at_finest = 4;
+
+/// Points on the grid, equal ones once.
+class Grid {
+ public:
+  Grid(std::vector<Vec_3>& points, double step) : points_(points), step_(step) {}
+
+  Vec_3 rounded(const Vec_3& p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
+
+  /// A vertex of the triangles goes to the grid; \return the vertex that is there.
+  Index move_vertex(Index v, double& largest_move) {
+    const auto [it, is_new] = moved_.try_emplace(v, v);
+    if (!is_new) return it->second;
+    const Vec_3 to = rounded(points_[v]);
+    largest_move = std::max(largest_move, length(to - points_[v]));
+    points_[v] = to;
+    return it->second = vertex_at(to, v);
+  }
+
+  Index add(const Point_3& p) {
+    const auto& e = CGAL::exact(p);  // what it is, not how it was made
+    const Vec_3 at = rounded(Vec_3{CGAL::to_double(e.x()), CGAL::to_double(e.y()), CGAL::to_double(e.z())});
+    const auto found = at_.find({at.x, at.y, at.z});
+    if (found != at_.end()) return found->second;
+    points_.push_back(at);
+    return vertex_at(at, static_cast<Index>(points_.size() - 1));
+  }
+
+ private:
+  double rounded(double x) const { return std::nearbyint(x / step_) * step_; }
+  Index vertex_at(const Vec_3& p, Index v) { return at_.try_emplace({p.x, p.y, p.z}, v).first->second; }
+
+  std::vector<Vec_3>& points_;
+  double step_;
+  std::map<std::array<double, 3>, Index> at_;
+  std::map<Index, Index> moved_;
+};
+
+/// Coplanar triangles that overlap, or a single one, divided by all that meets them.
+class Plane_arrangement {
+  using Vb = CGAL::Triangulation_vertex_base_with_info_2<std::optional<Point_3>, Exact>;
+  using Fb = CGAL::Constrained_triangulation_face_base_2<Exact>;
+  using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Triangulation_data_structure_2<Vb, Fb>, CGAL::Exact_intersections_tag>;
+  using Vertex_handle = Cdt::Vertex_handle;
+
+ public:
+  explicit Plane_arrangement(const std::array<Point_3, 3>& plane) : origin_(plane[0]) {
+    normal_ = CGAL::cross_product(plane[1] - plane[0], plane[2] - plane[0]);
+    const double n[3] = {std::abs(CGAL::to_double(normal_.x())), std::abs(CGAL::to_double(normal_.y())), std::abs(CGAL::to_double(normal_.z()))};
+    dropped_ = n[0] > n[1] && n[0] > n[2] ? 0 : n[1] > n[2] ? 1 : 2;
+    // Inexact: the largest of numbers that may all be as good as zero must not be zero.
+    for (int i = 0; i < 3 && normal_[dropped_] == 0; ++i) dropped_ = i;
+  }
+
+  void add_triangle(const std::array<Point_3, 3>& t) {
+    std::array<Point_2, 3> flat_corners;
+    for (std::size_t i = 0; i < 3; ++i) flat_corners[i] = flat(t[i]);
+    triangles_.push_back(flat_corners);
+    for (std::size_t i = 0; i < 3; ++i) add_segment(t[i], t[(i + 1) % 3]);
+  }
+  void add_segment(const Point_3& a, const Point_3& b) { cdt_.insert_constraint(vertex(a), vertex(b)); }
+  void add_point(const Point_3& p) { vertex(p); }
+
+  /// f(corners, position of the first triangle that covers it), corners oriented as the plane.
+  template <class F>
+  void for_each_face(F f) {
+    const bool is_turned = (normal_[dropped_] < 0) != (dropped_ == 1);
+    for (auto face = cdt_.finite_faces_begin(); face != cdt_.finite_faces_end(); ++face) {
+      const Point_2 middle = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
+      const auto covers = [&](const std::array<Point_2, 3>& t) {
+        const auto s = [&](std::size_t i) { return CGAL::orientation(t[i], t[(i + 1) % 3], middle); };
+        return s(0) == s(1) && s(1) == s(2);
+      };
+      const auto first = triangles_.size() == 1 ? triangles_.begin() : std::ranges::find_if(triangles_, covers);
+      if (first == triangles_.end()) continue;
+      std::array<Point_3, 3> corners{lifted(face->vertex(0)), lifted(face->vertex(1)), lifted(face->vertex(2))};
+      if (is_turned) std::swap(corners[1], corners[2]);
+      f(corners, static_cast<std::size_t>(first - triangles_.begin()));
+    }
+  }
+
+ private:
+  Point_2 flat(const Point_3& p) const { return {p[dropped_ == 0 ? 1 : 0], p[dropped_ == 2 ? 1 : 2]}; }
+
+  Vertex_handle vertex(const Point_3& p) {
+    const Vertex_handle v = cdt_.insert(flat(p));
+    v->info() = p;
+    return v;
+  }
+
+  /// Where constraints cross, the point of the plane.
+  Point_3 lifted(Vertex_handle v) const {
+    if (v->info()) return *v->info();
+    const int i = dropped_ == 0 ? 1 : 0, j = dropped_ == 2 ? 1 : 2;
+    const Exact::FT x = v->point().x(), y = v->point().y();
+    const Exact::FT z = origin_[dropped_] - (normal_[i] * (x - origin_[i]) + normal_[j] * (y - origin_[j])) / normal_[dropped_];
+    switch (dropped_) {
+      case 0: return {z, x, y};
+      case 1: return {x, z, y};
+      default: return {x, y, z};
+    }
+  }
+
+  Point_3 origin_;
+  Exact::Vector_3 normal_;
+  int dropped_ = 0;
+  std::vector<std::array<Point_2, 3>> triangles_;
+  Cdt cdt_;
+};
+
+/// One round: all triangles of `pairs` are divided where they meet.
+Soup divided(Soup soup, const Pairs& pairs, double step, double& largest_move) {
+  Grid grid(soup.points, step);
+  std::vector<bool> is_met(soup.triangles.size(), false);
+  for (const auto& [s, t] : pairs) is_met[s] = is_met[t] = true;
+  // What meets lies on the grid before anything is computed: what is computed is rounded to points of it.
+  std::map<Index, Index> moved;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (is_met[t])
+      for (const Index v : soup.triangles[t].corners) moved[v] = grid.move_vertex(v, largest_move);
+  for (Triangle& t : soup.triangles)
+    for (Index& v : t.corners)
+      if (const auto it = moved.find(v); it != moved.end()) v = it->second;
+
+  const auto point = [&](Index v) { return Point_3(soup.points[v].x, soup.points[v].y, soup.points[v].z); };
+  const auto corners = [&](Index t) {
+    const Corners& c = soup.triangles[t].corners;
+    return std::array<Point_3, 3>{point(c[0]), point(c[1]), point(c[2])};
+  };
+  const auto has_area = [&](Index t) {
+    const auto c = corners(t);
+    return !CGAL::collinear(c[0], c[1], c[2]);
+  };
+  std::vector<std::vector<Point_3>> points(soup.triangles.size());
+  std::vector<std::vector<std::pair<Point_3, Point_3>>> segments(soup.triangles.size());
+  boost::disjoint_sets_with_storage<> coplanar(soup.triangles.size());
+  for (const auto& [s, t] : pairs) {
+    if (!has_area(s) || !has_area(t)) continue;
+    const auto a = corners(s), b = corners(t);
+    const CGAL::Object common = CGAL::intersection(Exact::Triangle_3(a[0], a[1], a[2]), Exact::Triangle_3(b[0], b[1], b[2]));
+    if (const auto* p = CGAL::object_cast<Point_3>(&common)) {
+      points[s].push_back(*p);
+      points[t].push_back(*p);
+    } else if (const auto* segment = CGAL::object_cast<Exact::Segment_3>(&common)) {
+      segments[s].emplace_back(segment->source(), segment->target());
+      segments[t].emplace_back(segment->source(), segment->target());
+    } else if (!common.is_empty()) {
+      coplanar.union_set(s, t);  // their edges divide each other
+    }
+  }
+  std::map<std::size_t, std::vector<Index>> planes;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (is_met[t] && has_area(t)) planes[coplanar.find_set(t)].push_back(t);
+
+  Soup result;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (!is_met[t]) result.triangles.push_back(soup.triangles[t]);
+  std::vector<const std::vector<Index>*> in_order;
+  for (const auto& [root, members] : planes) in_order.push_back(&members);
+  std::ranges::sort(in_order, {}, [](const std::vector<Index>* m) { return m->front(); });
+  for (const std::vector<Index>* members : in_order) {
+    Plane_arrangement plane(corners(members->front()));
+    // The last part has what several parts have.
+    std::vector<Index> list(members->rbegin(), members->rend());
+    std::ranges::stable_sort(list, std::greater{}, [&](Index t) { return soup.triangles[t].part; });
+    for (const Index t : list) plane.add_triangle(corners(t));
+    for (const Index t : list) {
+      for (const Point_3& p : points[t]) plane.add_point(p);
+      for (const auto& [a, b] : segments[t]) plane.add_segment(a, b);
+    }
+    plane.for_each_face([&](const std::array<Point_3, 3>& c, std::size_t i) {
+      Triangle piece = soup.triangles[list[i]];
+      piece.corners = {grid.add(c[0]), grid.add(c[1]), grid.add(c[2])};
+      result.triangles.push_back(piece);
+    });
+  }
+  result.points = std::move(soup.points);
+  return result;
+}
+
+}  // namespace
+
+Pairs meeting_pairs(const Soup& soup) {
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
+  std::vector<Box> boxes;
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const Corners& c = soup.triangles[t].corners;
+    boxes.push_back({to_work_point(soup.points[c[0]]).bbox() + to_work_point(soup.points[c[1]]).bbox() + to_work_point(soup.points[c[2]]).bbox(), t});
+  }
+  Pairs pairs;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const Index s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
+    if (domain_detail::triangles_meet(soup.triangles[s].corners, soup.triangles[t].corners, soup.points)) pairs.emplace_back(s, t);
+  });
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+Soup arrangement(const Soup& soup, Pairs pairs, double tolerance, Repair_report& report) {
+  Soup result = soup;
+  double extent = 0;
+  for (const Triangle& t : soup.triangles)
+    for (const Index v : t.corners)
+      for (const double x : {soup.points[v].x, soup.points[v].y, soup.points[v].z}) extent = std::max(extent, std::abs(x));
+  const int exponent = std::ilogb(extent) + 1;
+  int bits = finest_bits;
+  for (int round = 0; !pairs.empty(); ++round) {
+    if (round >= rounds_at_finest) bits -= bits_per_round;
+    const double step = std::ldexp(1.0, exponent - bits);
+    if (step > tolerance && bits < finest_bits) break;
+    result = divided(std::move(result), pairs, step, report.largest_move);
+    Repair_report ignored;
+    remove_degenerate(result, ignored);
+    pairs = meeting_pairs(result);
+  }
+  if (!pairs.empty()) {
+    const auto [s, t] = pairs.front();
+    const Index f = result.triangles[s].facet, g = result.triangles[t].facet;
+    throw Input_error({{Input_problem::Kind::self_intersection,
+                        "facets " + std::to_string(f) + " and " + std::to_string(g) + " intersect, and " + std::to_string(pairs.size()) +
+                            " intersections come back when they are rounded: a larger tolerance may help",
+                        {f, g}}});
+  }
+  return result;
+}
+
+}  // namespace pgdr::repair_detail

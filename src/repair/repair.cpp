@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/repair/repair.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include <pgdr/domain/scale.h>
+
+#include "steps.h"
+
+namespace pgdr {
+
+namespace {
+
+using namespace repair_detail;
+
+std::string text(double x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", x);
+  return buffer;
+}
+
+/// Holes that are wider than may be filled, of groups most of which bounds nothing. Where most of it does, what hangs on it was spare.
+std::vector<Input_problem> open_groups(const Soup& soup, const std::vector<Index>& group, const std::vector<double>& kept,
+                                       const std::vector<Hole>& holes, const Repair_options& options, double unit) {
+  std::vector<Input_problem> problems;
+  for (const Hole& hole : holes) {
+    if (kept[group[hole.triangle]] > 0.5) continue;
+    const Triangle& t = soup.triangles[hole.triangle];
+    const Vec_3& at = soup.points[hole.rim.front()];
+    problems.push_back({Input_problem::Kind::open_surface,
+                        "the rim of " + std::to_string(hole.rim.size()) + " edges through (" + text(unit * at.x) + ", " + text(unit * at.y) + ", " +
+                            text(unit * at.z) + ") is " + text(unit * hole.diameter) + " wide, and holes are filled up to " + text(options.largest_hole),
+                        {t.facet}});
+  }
+  return problems;
+}
+
+Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_report& report) {
+  Soup soup;
+  for (std::size_t part = 0; part < parts.size(); ++part) add_to_soup(soup, parts[part], static_cast<Index>(part), report);
+  const double unit = unit_of(parts[0]);
+  const double tolerance = options.tolerance / unit;
+  remove_degenerate(soup, report);
+  close_cracks(soup, tolerance, report);
+  orient_shells(soup, report);
+  const std::vector<Hole> holes = fill_holes(soup, options.largest_hole / unit, report);
+  const auto pairs = meeting_pairs(soup);
+  report.intersecting_pairs = pairs.size();
+  if (report.is_none() && holes.empty() && parts.size() == 1) return parts[0];
+  const std::vector<Index> group = orient_groups(soup, pairs, report);
+  Plc plc;
+  if (pairs.empty() && holes.empty() && parts.size() == 1) {
+    plc = as_plc(soup);
+  } else {
+    Solids result = solids(arrangement(soup, pairs, tolerance, report), soup, group, parts.size(), tolerance, report);
+    std::vector<Input_problem> problems = open_groups(soup, group, result.kept, holes, options, unit);
+    if (problems.empty() && result.plc.facets.empty()) problems = {{Input_problem::Kind::open_surface, "the triangles enclose nothing"}};
+    if (!problems.empty()) throw Input_error(std::move(problems));
+    plc = std::move(result.plc);
+  }
+  report.largest_move *= unit;
+  plc.exponent = parts[0].exponent;
+  return plc;
+}
+
+}  // namespace
+
+Plc repair(const Plc& plc, const Repair_options& options, Repair_report* report) {
+  if (exponent_for(plc) != 0) return repair(normalized(plc), options, report);
+  Repair_report ignored;
+  Repair_report& done = report ? *report : ignored;
+  done = {};
+  Plc result = repaired({&plc, 1}, options, done);
+  if (done.is_none()) return result;
+  result.nesting = plc.nesting;
+  result.holes = plc.holes;
+  result.regions = plc.regions;
+  return result;
+}
+
+Plc assemble(std::span<const Plc> parts, const Repair_options& options, Repair_report* report) {
+  Repair_report ignored;
+  Repair_report& done = report ? *report : ignored;
+  done = {};
+  if (parts.empty()) throw Input_error(Input_problem::Kind::empty, "an assembly of no parts");
+  std::vector<Plc> marked(parts.begin(), parts.end());
+  for (std::size_t part = 0; part < marked.size(); ++part)
+    for (auto& facet : marked[part].facets)
+      if (facet.marker == 0) facet.marker = static_cast<int>(part) + 1;
+  return repaired(marked, options, done);
+}
+
+}  // namespace pgdr

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <CGAL/Bbox_3.h>
+
+#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/volumes_3.h>
+
+#include "steps.h"
+
+namespace pgdr::repair_detail {
+
+namespace {
+
+/// What one group of triangles encloses.
+struct Body {
+  Index part = 0;
+  std::vector<Corners> triangles;
+  CGAL::Bbox_3 box;
+
+  bool contains(const std::vector<Vec_3>& points, const Vec_3& p) const {
+    if (p.x < box.xmin() || p.x > box.xmax() || p.y < box.ymin() || p.y > box.ymax() || p.z < box.zmin() || p.z > box.zmax()) return false;
+    return winding_number(points, triangles, p) > 0.5;
+  }
+};
+
+std::vector<Body> bodies(const Soup& soup, const std::vector<Index>& group) {
+  std::vector<Body> result(group.empty() ? 0 : *std::ranges::max_element(group) + 1);
+  for (Index t = 0; t < group.size(); ++t) {
+    Body& body = result[group[t]];
+    body.part = soup.triangles[t].part;
+    body.triangles.push_back(soup.triangles[t].corners);
+    for (const Index v : soup.triangles[t].corners) body.box += domain_detail::to_work_point(soup.points[v]).bbox();
+  }
+  return result;
+}
+
+/// How thick each volume is between its facets, on average; the first volume is what is outside.
+std::vector<double> thicknesses(const Soup& arranged, const Domain_3<Default_kernel>& domain, const Volumes_3<Default_kernel>& volumes) {
+  const std::size_t n = volumes.volumes().size();
+  std::vector<double> volume(n, 0), surface(n, 0), result;
+  const Vec_3 origin = arranged.points[arranged.triangles[0].corners[0]];
+  for (Index f = 0; f < domain.facets.size(); ++f)
+    for (const bool is_front : {true, false}) {
+      const std::size_t v = volumes.beside(f, 0, is_front);
+      for (const Index t : domain.facets[f].input_facets) {
+        const double part = signed_volume(arranged, arranged.triangles[t], origin);
+        volume[v] += is_front ? part : -part;
+        surface[v] += area(arranged, arranged.triangles[t]);
+      }
+    }
+  for (std::size_t v = 0; v < n; ++v) result.push_back(2 * std::abs(volume[v]) / surface[v]);
+  return result;
+}
+
+/// How much of each group's area is left.
+std::vector<double> kept_shares(const Soup& kept, const Soup& soup, const std::vector<Index>& group) {
+  std::map<std::pair<Index, Index>, Index> group_of;  // of a part's facet
+  std::vector<double> before(group.empty() ? 0 : *std::ranges::max_element(group) + 1, 0), after = before;
+  for (Index t = 0; t < group.size(); ++t) {
+    group_of[{soup.triangles[t].part, soup.triangles[t].facet}] = group[t];
+    before[group[t]] += area(soup, soup.triangles[t]);
+  }
+  for (const Triangle& t : kept.triangles) after[group_of[{t.part, t.facet}]] += area(kept, t);
+  for (std::size_t g = 0; g < before.size(); ++g) after[g] /= before[g];
+  return after;
+}
+
+}  // namespace
+
+Plc as_plc(const Soup& soup) {
+  Plc plc;
+  std::vector<Index> number(soup.points.size(), static_cast<Index>(-1));
+  for (const Triangle& t : soup.triangles) {
+    std::vector<Index> polygon;
+    for (const Index v : t.corners) {
+      if (number[v] == static_cast<Index>(-1)) {
+        number[v] = static_cast<Index>(plc.vertices.size());
+        plc.vertices.emplace_back(soup.points[v].x, soup.points[v].y, soup.points[v].z);
+      }
+      polygon.push_back(number[v]);
+    }
+    Plc_facet<Default_kernel>& facet = plc.facets.emplace_back();
+    facet.polygons = {polygon};
+    facet.marker = t.marker;
+  }
+  return plc;
+}
+
+Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report) {
+  constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+  const std::vector<Body> all = bodies(soup, group);
+  const auto owner_at = [&](const Vec_3& p) {
+    std::vector<std::size_t> layers(parts, 0);
+    for (const Body& body : all) layers[body.part] += body.contains(soup.points, p);
+    std::size_t owner = nobody, claims = 0;
+    for (std::size_t part = 0; part < parts; ++part)
+      if (layers[part] % 2 == 1) {
+        owner = part;
+        ++claims;
+      }
+    report.overlaps += claims > 1;
+    return owner;
+  };
+
+  const Domain_3<Default_kernel> domain = make_domain_3(as_plc(arranged), 0.0, true);
+  const Volumes_3<Default_kernel> volumes(domain);
+  std::vector<std::optional<std::size_t>> owner(volumes.volumes().size());
+  owner[0] = nobody;
+  const std::vector<double> thickness = thicknesses(arranged, domain, volumes);
+  for (std::size_t v = 1; v < owner.size(); ++v)
+    if (thickness[v] > tolerance)
+      if (const auto p = volumes.interior_point(v)) owner[v] = owner_at(*p);
+  // What is thinner than the tolerance, or has no room for a point, has the owner of a neighbor.
+  for (bool some = true; some;) {
+    some = false;
+    for (Index f = 0; f < domain.facets.size(); ++f) {
+      const std::size_t front = volumes.beside(f, 0, true), back = volumes.beside(f, 0, false);
+      if (owner[front].has_value() == owner[back].has_value()) continue;
+      (owner[front] ? owner[back] : owner[front]) = owner[front] ? owner[front] : owner[back];
+      some = true;
+    }
+  }
+
+  Soup kept{arranged.points, {}};
+  for (Index f = 0; f < domain.facets.size(); ++f) {
+    const bool bounds = owner[volumes.beside(f, 0, true)] != owner[volumes.beside(f, 0, false)];
+    for (const Index t : domain.facets[f].input_facets)
+      if (bounds) kept.triangles.push_back(arranged.triangles[t]); else ++report.inner_triangles;
+  }
+  std::ranges::sort(kept.triangles, {}, [](const Triangle& t) { return std::pair{t.part, t.facet}; });
+  Solids result{as_plc(kept), kept_shares(kept, soup, group)};
+  if (parts == 1) return result;
+
+  // Voids that are enclosed, and whose each volume is.
+  Plc& plc = result.plc;
+  const Volumes_3<Default_kernel> left(make_domain_3(plc, 0.0, true));
+  plc.nesting = Nesting::fill;
+  for (std::size_t v = 1; v < left.volumes().size(); ++v) {
+    const auto p = left.interior_point(v);
+    if (!p) continue;
+    const std::size_t before = volumes.locate({p->x, p->y, p->z});
+    const std::size_t part = before == Volumes_3<Default_kernel>::none ? nobody : *owner[before];
+    if (part == nobody)
+      plc.holes.emplace_back(p->x, p->y, p->z);
+    else
+      plc.regions.push_back({.point = {p->x, p->y, p->z}, .id = static_cast<int>(part) + 1});
+  }
+  return result;
+}
+
+}  // namespace pgdr::repair_detail

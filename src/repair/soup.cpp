@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A PLC as triangles, and what is wrong with them one by one.
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <string>
+
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+
+#include <pgdr/domain/make_domain_3.h>
+
+#include "steps.h"
+
+namespace pgdr::repair_detail {
+
+namespace {
+
+using domain_detail::to_work_point;
+
+bool has_area(const Soup& soup, const Corners& c) {
+  if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) return false;
+  return !CGAL::collinear(to_work_point(soup.points[c[0]]), to_work_point(soup.points[c[1]]), to_work_point(soup.points[c[2]]));
+}
+
+/// The same for all triangles with the same corners, and whether it takes an odd permutation to get there.
+std::pair<Corners, bool> sorted_corners(Corners c) {
+  std::rotate(c.begin(), std::ranges::min_element(c), c.end());
+  const bool is_odd = c[1] > c[2];
+  if (is_odd) std::swap(c[1], c[2]);
+  return {c, is_odd};
+}
+
+/// By which triangles with the same corners are found.
+struct Key {
+  Index part;
+  Corners corners;
+  bool is_odd;
+  Index triangle;
+  friend auto operator<=>(const Key&, const Key&) = default;
+  bool is_same_as(const Key& other) const { return part == other.part && corners == other.corners; }
+};
+
+}  // namespace
+
+std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::vector<Index>& polygon) {
+  if (polygon.size() == 3) return {{polygon[0], polygon[1], polygon[2]}};
+  std::vector<domain_detail::Work_point> rim;
+  for (const Index v : polygon) rim.push_back(to_work_point(points[v]));
+  std::vector<CGAL::Triple<int, int, int>> patch;
+  CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch));
+  std::vector<Corners> result;
+  for (const auto& t : patch) {
+    std::array<int, 3> i{t.first, t.second, t.third};
+    std::ranges::sort(i);  // along the polygon
+    Corners& c = result.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) c[k] = polygon[static_cast<std::size_t>(i[k])];
+  }
+  return result;
+}
+
+Triangle_edges::Triangle_edges(const std::vector<Triangle>& triangles) {
+  edges.reserve(3 * triangles.size());
+  for (Index t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = triangles[t].corners[i], b = triangles[t].corners[(i + 1) % 3];
+      edges.push_back({sorted_pair(a, b), t, a < b});
+    }
+  std::ranges::sort(edges);
+}
+
+void add_to_soup(Soup& soup, const Plc& plc, Index part, Repair_report& report) {
+  if (std::vector<Input_problem> problems = domain_detail::unusable_input(plc); !problems.empty()) throw Input_error(std::move(problems));
+  if (!plc.segments.empty())
+    throw Input_error(Input_problem::Kind::unreadable, "only facets can be repaired, and the input has segments of its own");
+  std::vector<Vec_3> points;
+  for (const auto& p : plc.vertices) points.push_back(to_vec(p));
+  const std::vector<Index> first = domain_detail::first_equal_vertex(points, std::vector<char>(points.size(), 0));
+  for (Index v = 0; v < first.size(); ++v) report.merged_vertices += first[v] != v;
+  const Index offset = static_cast<Index>(soup.points.size());
+  soup.points.insert(soup.points.end(), points.begin(), points.end());
+  for (Index f = 0; f < plc.facets.size(); ++f) {
+    const auto& facet = plc.facets[f];
+    if (facet.polygons.size() != 1 || !facet.holes.empty())
+      throw Input_error({{Input_problem::Kind::unreadable,
+                          "facet " + std::to_string(f + plc.first_index) + " has holes or several polygons: it cannot be repaired", {f}}});
+    std::vector<Index> polygon;
+    for (const Index v : facet.polygons[0])
+      if (polygon.empty() || polygon.back() != offset + first[v]) polygon.push_back(offset + first[v]);
+    while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+    if (polygon.size() < 3) {
+      ++report.degenerate_triangles;
+      continue;
+    }
+    for (const Corners& c : triangulated(soup.points, polygon)) soup.triangles.push_back({c, part, f, facet.marker});
+  }
+}
+
+void remove_degenerate(Soup& soup, Repair_report& report) {
+  report.degenerate_triangles += std::erase_if(soup.triangles, [&](const Triangle& t) { return !has_area(soup, t.corners); });
+
+  std::vector<Key> keys;
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const auto [corners, is_odd] = sorted_corners(soup.triangles[t].corners);
+    keys.push_back({soup.triangles[t].part, corners, is_odd, t});
+  }
+  std::ranges::sort(keys);
+  std::vector<bool> goes(soup.triangles.size(), false);
+  for (std::size_t i = 0, j = 0; i < keys.size(); i = j) {
+    while (j < keys.size() && keys[j].is_same_as(keys[i])) ++j;
+    // Two with opposite sides may be where two solids touch; else what is left has the side that most of them have.
+    const auto odd = static_cast<std::size_t>(std::count_if(keys.begin() + static_cast<std::ptrdiff_t>(i), keys.begin() + static_cast<std::ptrdiff_t>(j),
+                                                            [](const Key& k) { return k.is_odd; }));
+    const std::size_t even = j - i - odd;
+    bool keep_even = even >= odd, keep_odd = odd >= even;
+    for (std::size_t k = i; k < j; ++k) {
+      bool& keep = keys[k].is_odd ? keep_odd : keep_even;
+      goes[keys[k].triangle] = !keep;
+      keep = false;
+    }
+  }
+  std::size_t left = 0;
+  for (std::size_t t = 0; t < goes.size(); ++t)
+    if (!goes[t]) soup.triangles[left++] = soup.triangles[t];
+  report.duplicate_triangles += goes.size() - left;
+  soup.triangles.resize(left);
+}
+
+}  // namespace pgdr::repair_detail

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SRC_REPAIR_STEPS_H
+#define PGDR_SRC_REPAIR_STEPS_H
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <pgdr/domain/default_kernel.h>
+#include <pgdr/domain/detail/planar_triangulation.h>
+#include <pgdr/domain/input_error.h>
+#include <pgdr/domain/vec_3.h>
+#include <pgdr/repair/repair.h>
+
+namespace pgdr::repair_detail {
+
+using Corners = std::array<Index, 3>;
+using domain_detail::Index_pair;
+using domain_detail::sorted_pair;
+
+struct Triangle {
+  Corners corners;
+  Index part = 0;   ///< of an assembly
+  Index facet = 0;  ///< of the input; for messages
+  int marker = 0;
+};
+
+/// Triangles without any connection but equal vertices.
+struct Soup {
+  std::vector<Vec_3> points;
+  std::vector<Triangle> triangles;
+};
+
+/// Directed edges of triangles, and who they belong to.
+struct Triangle_edges {
+  struct Edge {
+    Index_pair ends;     ///< ascending
+    Index triangle;
+    bool runs_forward;   ///< along `ends` in the triangle
+    friend auto operator<=>(const Edge&, const Edge&) = default;
+  };
+  explicit Triangle_edges(const std::vector<Triangle>& triangles);
+  /// f(first, last) for the edges of each pair of ends.
+  template <class F>
+  void for_each(F f) const {
+    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+      while (j < edges.size() && edges[j].ends == edges[i].ends) ++j;
+      f(i, j);
+    }
+  }
+  std::vector<Edge> edges;  ///< ascending
+};
+
+/// As few and as small triangles over a closed polygon as can be, oriented as it runs; it need not be plane. Empty where there are none.
+std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::vector<Index>& polygon);
+
+/// The facets of a PLC as triangles, equal vertices merged. Throws `Input_error` for facets with holes or several polygons.
+void add_to_soup(Soup& soup, const Plc& plc, Index part, Repair_report& report);
+
+/// Takes away triangles without area, and all but one of those with the same corners in one part.
+void remove_degenerate(Soup& soup, Repair_report& report);
+
+/// Merges vertices on the rims of cracks, and divides rims where vertices of the other side lie on them, both within the tolerance.
+void close_cracks(Soup& soup, double tolerance, Repair_report& report);
+
+/// Orients the triangles of each shell like their neighbors, and most of them as they were.
+void orient_shells(Soup& soup, Repair_report& report);
+
+/// A closed walk along edges that belong to one triangle only.
+struct Hole {
+  std::vector<Index> rim;  ///< as triangles that fill it run through it
+  double diameter = 0;     ///< of its box
+  Index triangle = 0;      ///< one at its rim
+};
+/// Fills the holes that are small enough, and single missing triangles. \return the others, the largest first
+std::vector<Hole> fill_holes(Soup& soup, double largest, Repair_report& report);
+
+/// Pairs of triangles that meet other than in common vertices and edges.
+std::vector<std::pair<Index, Index>> meeting_pairs(const Soup& soup);
+
+/// Divides triangles until they meet in common vertices and edges only. What covers another one of the same part exactly is gone; of several
+/// parts, the last one's is left. `pairs`: `meeting_pairs(soup)`. Throws `Input_error` if rounding always makes new intersections.
+Soup arrangement(const Soup& soup, std::vector<std::pair<Index, Index>> pairs, double tolerance, Repair_report& report);
+
+double area(const Soup& soup, const Triangle& t);
+/// Of the tetrahedron that it spans with the origin, positive where that is behind it.
+double signed_volume(const Soup& soup, const Triangle& t, const Vec_3& origin);
+
+/// How often the triangles wind around a point (Jacobson et al. 2013).
+double winding_number(const std::vector<Vec_3>& points, const std::vector<Corners>& triangles, const Vec_3& at);
+
+/// Turns shells that are inside out, and numbers groups of triangles that hang together.
+/// \return the group of each triangle. \pre `orient_shells`
+std::vector<Index> orient_groups(Soup& soup, const std::vector<std::pair<Index, Index>>& pairs, Repair_report& report);
+
+/// The triangles as facets.
+Plc as_plc(const Soup& soup);
+
+/// What `arranged` (the arrangement of `soup`) bounds: triangles with different owners on their sides, and a region for each part if there are several.
+/// Pockets thinner than the tolerance are no volumes of their own.
+struct Solids {
+  Plc plc;
+  std::vector<double> kept;  ///< which part of each group's area is in it
+};
+Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report);
+
+}  // namespace pgdr::repair_detail
+
+#endif
