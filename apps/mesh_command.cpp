@@ -229,6 +229,7 @@ int run_mesh(const Mesh_arguments& arguments) {
     run.stop_message = statistics.stop_message;
     run.steiner_points = statistics.steiner_points;
     run.unrecovered = statistics.unrecovered;
+    run.volumes_left_out = statistics.volumes_left_out;
     run.schedule = statistics.schedule;
     run.serial_share = serial_share(statistics);
     timer.end_phases(statistics.seconds);

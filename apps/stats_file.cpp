@@ -98,6 +98,7 @@ std::string stats_json(const Run_summary& run) {
                      {"exempt_angles", exempt_angles},
                      {"unrefined_tetrahedra", run.unrefined_tetrahedra},
                      {"unrecovered", run.unrecovered},
+                     {"volumes_left_out", run.volumes_left_out},
                      {"threads", run.threads},
                      {"seconds", seconds},
                      {"serial_share", run.serial_share},

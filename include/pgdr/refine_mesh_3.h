@@ -16,6 +16,7 @@
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/domain/volumes_3.h>
 #include <pgdr/parallel/parallel_for.h>
 #include <pgdr/parallel/parallel_walk.h>
 #include <pgdr/parallel/thread_arena.h>
@@ -70,11 +71,14 @@ class Mesher_3 {
     features_.note_mended();
     lap("conforming");
     mesh_.triangulation().restore_infinite_cell(on_hull);
-    mesh_.subdomains() =
-        Subdomain_labeler_3<Tr>(mesh_.triangulation(), mesh_.complex()).label(parameters_.ignore_region_sizes);
+    const bool is_conforming = count_missing() == 0;
+    Subdomain_labeler_3<Tr> labeler(mesh_.triangulation(), mesh_.complex());
+    mesh_.subdomains() = is_conforming ? labeler.label(parameters_.ignore_region_sizes)
+                                       : labeler.label_closed(Volumes_3<K>(mesh_.domain()), parameters_.ignore_region_sizes,
+                                                              mesh_.statistics().volumes_left_out);
     lap("labelling");
     const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains(), unit_of(mesh_.domain()));
-    if (count_missing() == 0 && reason_ == Stop_reason::finished) refine(criteria);
+    if (is_conforming && reason_ == Stop_reason::finished) refine(criteria);
     if (reason_ != Stop_reason::finished) note_unrefined(criteria);
     mesh_.triangulation().restore_infinite_cell(on_hull);
     lap("refinement");
@@ -159,8 +163,9 @@ class Mesher_3 {
                        (is_box(mesh_.domain()) ? 0 : 8);
     if (reason_ == Stop_reason::finished && (s.unrecovered > 0 || limited_ > 0)) reason_ = Stop_reason::min_edge_length;
     s.stop = reason_;
-    const std::string lost =
+    std::string lost =
         s.unrecovered == 0 ? "" : "; " + std::to_string(s.unrecovered) + " pieces of the input are not in the mesh";
+    if (s.volumes_left_out > 0) lost += "; " + counted(s.volumes_left_out, "volume is", "volumes are") + " not closed yet, and left out";
     switch (reason_) {
       case Stop_reason::finished: break;
       case Stop_reason::vertex_budget:

@@ -10,6 +10,7 @@
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/conflict_walk_3.h>
 #include <pgdr/mesh/vertex_star_3.h>
+#include <pgdr/mesh/zone_reach_3.h>
 
 #include "catch.h"
 #include "seeded_random.h"
@@ -142,6 +143,30 @@ TEST_CASE("A walk finds a tetrahedron in conflict, and does not leave its territ
   }
   CHECK(found > 50);
   CHECK(left > 50);
+}
+
+TEST_CASE("A walk in the zone of a leaf steps only to tetrahedra with a vertex near the leaf", "[mesh]") {
+  Divided d(7);
+  const pgdr::Zone_reach_3<Tr> zone{{{0.3, 0.3, 0.3}, {0.6, 0.6, 0.6}}, d.tr.infinite_vertex()};
+  std::size_t found = 0, left = 0;
+  for (auto v = d.tr.finite_vertices_begin(); v != d.tr.finite_vertices_end(); ++v) {
+    if (!zone.is_near(v)) continue;
+    const Point q = d.inside(), p = left > found ? Point(0.3 + 0.3 * q.x(), 0.3 + 0.3 * q.y(), 0.3 + 0.3 * q.z()) : q;
+    const Cell_handle c = pgdr::walk_to_conflict(d.tr, zone, Vertex_handle(v), p);
+    if (c == Cell_handle()) {
+      ++left;
+      continue;
+    }
+    ++found;
+    CHECK(d.tr.in_conflict(c, p));
+    bool has_near = false;
+    for (int i = 0; i < 4; ++i) has_near = has_near || zone.is_near(c->vertex(i));
+    CHECK(has_near);
+  }
+  CHECK(found > 20);
+  CHECK(left > 20);
+  CHECK_FALSE(zone.is_near(d.tr.infinite_vertex()));
+  CHECK(pgdr::Zone_reach_3<Tr>{{}, d.tr.infinite_vertex()}.leads_on(d.tr.finite_cells_begin()));
 }
 
 TEST_CASE("A walk to where a vertex is ends at it", "[mesh]") {

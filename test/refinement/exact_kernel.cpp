@@ -30,6 +30,11 @@ TEST_CASE("A cube is refined with exact constructions", "[refinement]") {
   CHECK(quality.max_radius_edge_ratio <= 2);
   CHECK(quality.volume == Approx(1));
 
+  // What double precision cannot tell apart must not be two points to the predicates and one to the rest.
+  auto between = plc;
+  between.vertices[7] = Kernel::Point_3(1, 1, 1 + Kernel::FT(1) / 3);
+  CHECK_THROWS_AS(pgdr::refine_mesh_3(between, size, parameters), pgdr::Input_error);
+
   // The checker reads arrays; the same cube of doubles is its input.
   pgdr::Plc same;
   for (const auto& p : plc.vertices)

@@ -110,6 +110,30 @@ TEST_CASE("Limits of time and of memory stop with a valid mesh", "[refinement]")
   }
 }
 
+TEST_CASE("Where a stop leaves gaps in the boundary of a volume, only closed volumes are meshed", "[refinement]") {
+  // Two bars cross in a box; the longer one's edges are not in the triangulation of the vertices, so that it is one with the box. Beside it a cube.
+  auto plc = box();
+  for (const auto& [lower, upper] : {std::pair<std::array<double, 3>, std::array<double, 3>>{{0.1, 0.49, 0.45}, {0.9, 0.51, 0.47}},
+                                     {{0.49, 0.2, 0.5}, {0.51, 0.8, 0.52}},
+                                     {{2, 0, 0}, {3, 1, 1}}})
+    add_box(plc, lower, upper);
+  const auto whole = refined(plc);
+  CHECK(whole.statistics().volumes_left_out == 0);
+  CHECK(pgdr::mesh_quality(pgdr::indexed_mesh_3(whole)).volume == Approx(2));
+  CHECK(distinct(pgdr::indexed_mesh_3(whole).tetrahedron_references) == std::set<std::int32_t>{1, 2, 3, 4});
+
+  pgdr::Parameters parameters;
+  parameters.max_vertices = 1;
+  const auto stopped = refined(plc, 10, parameters);
+  CHECK(stopped.statistics().stop == Stop_reason::vertex_budget);
+  CHECK(stopped.statistics().unrecovered > 0);
+  CHECK(stopped.statistics().volumes_left_out == 2);
+  CHECK(stopped.statistics().stop_message.ends_with("2 volumes are not closed yet, and left out"));
+  const auto mesh = pgdr::indexed_mesh_3(stopped);
+  CHECK(pgdr::mesh_quality(mesh).volume == Approx(1 + 0.6 * 0.02 * 0.02));
+  CHECK(distinct(mesh.tetrahedron_references) == std::set<std::int32_t>{3, 4});
+}
+
 TEST_CASE("A caller's flag is seen beside other limits", "[refinement]") {
   const std::atomic<bool> cancel = true;
   pgdr::Parameters parameters;

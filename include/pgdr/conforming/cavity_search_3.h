@@ -9,13 +9,14 @@
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/conflict_walk_3.h>
 #include <pgdr/mesh/vertex_star_3.h>
+#include <pgdr/mesh/zone_reach_3.h>
 
 namespace pgdr {
 
 /// What became of the search for a cavity.
 enum class Search_result : std::uint8_t {
   found,    ///< the cavity is marked
-  nothing,  ///< nothing is in conflict with the point: rounding
+  nothing,  ///< nothing is in conflict with the point, which is rounding; or the way to it leaves the zone
   foreign   ///< the cavity, or the way to it, is not within the territory
 };
 
@@ -36,10 +37,21 @@ class Cavity_search_3 {
     return cavity_.is_foreign() ? Search_result::foreign : Search_result::nothing;
   }
 
+  /// The leaf grown by ell*/4, where it is not everything; see `Zone_reach_3`.
+  void set_near(const Region_3& near) {
+    near_ = near;
+    is_leaf_ = near != Region_3{};
+  }
+
   /// From an own vertex that is not far from p.
   Search_result from_vertex(const Point& p, Vertex_handle v) {
     // CGAL's walk is the faster one, but nobody can tell it where to stop.
-    if (territory().is_everything()) return from_cell(p, tr_.locate(p, v->cell()));
+    if (territory().is_everything() && !is_leaf_) return from_cell(p, tr_.locate(p, v->cell()));
+    if (is_leaf_) {
+      const Zone_reach_3<Tr> zone{near_, tr_.infinite_vertex()};
+      const Cell_handle c = zone.is_near(v) ? walk_to_conflict(tr_, zone, v, p) : Cell_handle();
+      return c == Cell_handle() ? Search_result::nothing : from_cell(p, c);
+    }
     const Cell_handle c = walk_to_conflict(tr_, territory(), v, p);
     return c == Cell_handle() ? Search_result::foreign : from_cell(p, c);
   }
@@ -72,6 +84,8 @@ class Cavity_search_3 {
   const Complex& complex_;
   Cavity_3<Tr>& cavity_;
   Vertex_star_3<Tr> star_;
+  Region_3 near_;
+  bool is_leaf_ = false;
 };
 
 }  // namespace pgdr

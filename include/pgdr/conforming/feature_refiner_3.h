@@ -99,6 +99,7 @@ class Feature_refiner_3 {
   void set_region(const Region_3& region, const Region_3& near) {
     region_ = region;
     near_ = near;
+    search_.set_near(near);
     last_way_ = {};
   }
   /// What may be changed, beside other tasks: everything to begin with. Requests must be for own pieces. A split that

@@ -40,6 +40,12 @@ std::vector<Input_problem> unusable_input(const Piecewise_linear_complex_3<K>& p
                           "vertex " + number(i) + " has a coordinate that is not finite",
                           {},
                           {static_cast<Index>(i)}});
+    // Sizes and angles are measured in double precision, and points that round alike are taken for one.
+    else if (const Vec_3 p = to_vec(plc.vertices[i]); plc.vertices[i] != typename K::Point_3(p.x, p.y, p.z))
+      problems.push_back({Kind::bad_coordinate,
+                          "vertex " + number(i) + " has a coordinate that is not a number of double precision",
+                          {},
+                          {static_cast<Index>(i)}});
   for (std::size_t i = 0; i < plc.holes.size(); ++i)
     if (!finite(plc.holes[i]))
       problems.push_back({Kind::bad_coordinate,

@@ -15,6 +15,8 @@ struct Region_3 {
   Vec_3 upper{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
               std::numeric_limits<double>::infinity()};
 
+  bool operator==(const Region_3&) const = default;
+
   bool contains(const Vec_3& p) const {
     return lower.x <= p.x && p.x < upper.x && lower.y <= p.y && p.y < upper.y && lower.z <= p.z && p.z < upper.z;
   }

@@ -15,6 +15,7 @@ struct Vec_3 {
 
   double operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   double& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  bool operator==(const Vec_3&) const = default;
   friend Vec_3 operator+(const Vec_3& a, const Vec_3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Vec_3 operator-(const Vec_3& a, const Vec_3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Vec_3 operator*(double s, const Vec_3& a) { return {s * a.x, s * a.y, s * a.z}; }

@@ -2,8 +2,6 @@
 #ifndef PGDR_MESH_CONFLICT_WALK_3_H
 #define PGDR_MESH_CONFLICT_WALK_3_H
 
-#include <pgdr/mesh/territory_3.h>
-
 namespace pgdr {
 
 /// Whether p is where a vertex of c is; such a point is in conflict with nothing.
@@ -27,12 +25,12 @@ int way_towards(const Tr& tr, typename Tr::Cell_handle c, typename Tr::Cell_hand
   return -1;
 }
 
-/// Walks from an own vertex towards p to a tetrahedron in conflict with p, or with a vertex there; none if the way leads out
-/// of the territory.
+/// Walks from a vertex within reach towards p to a tetrahedron in conflict with p, or with a vertex there; none if the way leads out
+/// of reach, a `Territory_3` or `Zone_reach_3`.
 ///
 /// A visibility walk, which ends in every Delaunay triangulation. \pre p is not outside the convex hull.
-template <class Tr>
-typename Tr::Cell_handle walk_to_conflict(const Tr& tr, const Territory_3<Tr>& territory, typename Tr::Vertex_handle from,
+template <class Tr, class Reach>
+typename Tr::Cell_handle walk_to_conflict(const Tr& tr, const Reach& reach, typename Tr::Vertex_handle from,
                                           const typename Tr::Point& p) {
   using Cell_handle = typename Tr::Cell_handle;
   Cell_handle c = from->cell(), before = {};
@@ -41,7 +39,7 @@ typename Tr::Cell_handle walk_to_conflict(const Tr& tr, const Territory_3<Tr>& t
     if (has_vertex_at(tr, c, p) || tr.in_conflict(c, p)) return c;
     if (tr.is_infinite(c)) return {};
     const int way = way_towards(tr, c, before, p);
-    if (way < 0 || !territory.leads_on(c, way)) return {};
+    if (way < 0 || !reach.leads_on(c, way)) return {};
     before = c;
     c = c->neighbor(way);
   }

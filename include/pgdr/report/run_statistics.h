@@ -30,6 +30,7 @@ struct Run_statistics {
   std::vector<Input_problem> warnings;  ///< of the PLC: what was left out
   std::size_t steiner_points = 0;      ///< inserted, those outside of the domain included
   std::size_t unrecovered = 0;         ///< subsegments and subfacets that the mesh lacks (0 unless stopped)
+  std::size_t volumes_left_out = 0;    ///< with gaps in their boundary when conforming was stopped; they have no tetrahedra
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
   Schedule_statistics schedule;
 };

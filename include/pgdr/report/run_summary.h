@@ -36,6 +36,7 @@ struct Run_summary {
   std::size_t steiner_points = 0;    ///< inserted, those outside of the domain included
   std::size_t steiner_vertices = 0;  ///< of the mesh
   std::size_t unrecovered = 0;
+  std::size_t volumes_left_out = 0;
   unsigned threads = 1;
   Schedule_statistics schedule;
   double serial_share = 0;  ///< `serial_share(Run_statistics)`
@@ -140,6 +141,8 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
     line("unrefined", with_separators(run.unrefined_tetrahedra), "tetrahedra over a bound of ratio or size when it stopped");
   if (run.unrecovered > 0)
     line("missing", with_separators(run.unrecovered), "pieces of segments and facets when it stopped");
+  if (run.volumes_left_out > 0)
+    line("left out", with_separators(run.volumes_left_out), "volumes with gaps in their boundary when it stopped");
   std::string phases;
   for (const auto& [name, seconds] : run.seconds) {
     if (seconds >= 0.005) phases += (phases.empty() ? "" : ", ") + name + " " + fixed(seconds);
