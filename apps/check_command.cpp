@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pgdr/io/medit.h>
 #include <pgdr/parallel/thread_arena.h>
 #include <pgdr/quality/check_mesh.h>
+#include <pgdr/report/format.h>
 
 #include "arguments.h"
 #include "command.h"
@@ -36,12 +38,17 @@ int run_check(const Check_arguments& arguments) {
   require_extension("MESH", arguments.mesh, {".mesh"});
 
   std::optional<Domain> domain;
+  std::vector<Check_line> lines;
   if (!arguments.inputs.empty()) {
-    domain = understand(read_input(arguments.inputs, arguments.domain), arguments.domain);
+    const Input input = read_input(arguments.inputs, arguments.domain);
+    domain = understand(input, arguments.domain);
     print_or_throw(find_problems(*domain));
+    if (input.limit > 0)
+      lines.push_back({"tolerance", input.distance.is_within,
+                       "what is meshed is within " + significant(input.limit, 3) + " of the input and the input within that of it; the largest distance met is " +
+                           significant(input.distance.seen, 3)});
   }
-  const std::vector<Check_line> lines =
-      check_mesh(read_medit(arguments.mesh), domain ? &*domain : nullptr, options);
+  for (Check_line& line : check_mesh(read_medit(arguments.mesh), domain ? &*domain : nullptr, options)) lines.push_back(std::move(line));
   for (const Check_line& line : lines) {
     std::cout << (line.passed ? "ok    " : "FAIL  ") << std::left << std::setw(15) << line.property << "  "
               << line.detail << '\n';

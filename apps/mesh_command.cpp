@@ -266,8 +266,11 @@ int run_mesh(const Mesh_arguments& arguments) {
     return exit_bad_input;
   }
   if (run.stop == Stop_reason::finished) return exit_done;
-  const std::string message = run.stop_message.empty() ? std::string("stopped: ") + stop_reason_name(run.stop) : run.stop_message;
-  print_message(is_usable || arguments.outputs.empty() ? message : message + "; there are no tetrahedra, and nothing was written");
+  std::string message = run.stop_message.empty() ? std::string("stopped: ") + stop_reason_name(run.stop) : run.stop_message;
+  if (!is_usable && !arguments.outputs.empty()) message += "; there are no tetrahedra, and nothing was written";
+  if (arguments.domain.tolerance.empty() && (run.unrecovered > 0 || run.exempt_tetrahedra > 0))
+    message += "; --tolerance 1e-5d, or more, takes small angles away that are no part of the shape";
+  print_message(message);
   return exit_stopped;
 }
 

@@ -18,9 +18,9 @@ namespace pgdr::app {
 void Domain_options::add_to(CLI::App& parser) {
   parser
       .add_option("--tolerance", tolerance,
-                  "Take away edges, needles and caps smaller than this, changing the boundary by no more: a length, or a part of the "
-                  "bounding box's diagonal as in 1e-4d; 0: mesh exactly what is in the file (default: 1e-6d for surfaces, 0 for .poly "
-                  "and .smesh)")
+                  "Take away edges, needles and caps smaller than this, and make one plane facet of triangles that are within it of a plane, "
+                  "changing the boundary by no more: a length, or a part of the bounding box's diagonal as in 1e-4d; 0: mesh exactly "
+                  "what is in the file (default: 1e-6d for surfaces, 0 for .poly and .smesh)")
       ->type_name("T");
   parser
       .add_option(
@@ -140,16 +140,27 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
 
   const double tolerance = simplification(files, options).in_units(bounding_diagonal(plc));
   if (tolerance <= 0) return input;
-  Simplification done;
-  Plc simplified = simplify(plc, tolerance, &done);
-  if (!done.is_none() && can_be_meshed(simplified, options, input.fusing_tolerance)) {
+  // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured. Where features
+  // are closer to each other than the tolerance the result may be invalid; then less is done, and at last nothing.
+  const bool triangulate = options.accepts_bent_polygons();
+  const double fused = input.fusing_tolerance * bounding_diagonal(plc);
+  const double limit = tolerance + fused;
+  for (const double within : {tolerance > fused ? 2 * tolerance : tolerance, tolerance, std::min(tolerance, fused), 0.0}) {
+    Simplification_within done;
+    Plc simplified = simplify_within(plc, within, input.fusing_tolerance, triangulate, &done);
+    if (done.is_none()) break;
+    if (!can_be_meshed(simplified, options, input.fusing_tolerance)) continue;
+    if (within > fused) {
+      const auto distance = surface_distance(plc, simplified, limit / unit_of(plc));
+      if (!distance || !distance->is_within) continue;
+      input.limit = limit;
+      input.distance = *distance;
+      input.distance.seen *= unit_of(plc);
+    }
     plc = std::move(simplified);
-    input.simplification = done;
-  }
-  try {
-    input.plc = planarize(input.plc, input.fusing_tolerance, options.accepts_bent_polygons(), &input.planarization);
-  } catch (const Input_error&) {
-    // Said again, and with the file of problems, when the input is understood.
+    input.simplification = done.simplification;
+    input.planarization = done.planarization;
+    break;
   }
   return input;
 }

@@ -15,8 +15,8 @@
 #include <pgdr/domain/input_error.h>
 #include <pgdr/io/write_problems.h>
 #include <pgdr/repair/repair.h>
-#include <pgdr/simplify/planarize.h>
-#include <pgdr/simplify/simplify.h>
+#include <pgdr/simplify/simplify_within.h>
+#include <pgdr/simplify/surface_distance.h>
 
 namespace pgdr::app {
 
@@ -53,6 +53,9 @@ struct Input {
   Repair_report repair;
   Simplification simplification;
   Planarization planarization;
+  /// For the distance of what is meshed from what was read, or repaired; 0: nothing was changed since by more than facets are fused.
+  double limit = 0;
+  Surface_distance distance;  ///< as measured, where there is a limit
 };
 
 /// Reads a file, or several as the parts of an assembly, repairs it if the options say so, simplifies it as far as they say, and makes its

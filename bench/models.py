@@ -7,7 +7,7 @@ otherwise, TetGen 1.5 on the PLC that pgdr understood (`pgdr info --write-plc`, 
 Models that a run does not finish within the limit are reported as such; invalid ones are counted apart. Prints a table in
 Markdown, and how many ended and passed.
 
-usage: bench/models.py FOLDER [NAME...] [--pgdr PROGRAM] [--limit SECONDS] [--threads N] [--no-tetgen]
+usage: bench/models.py FOLDER [NAME...] [--pgdr PROGRAM] [--limit SECONDS] [--threads N] [--no-tetgen] [--tolerance T]
        NAME: only models whose names begin with it
 Needs: cmake --build build/release --target pgdr-app; Debian's package tetgen, but for --no-tetgen.
 """
@@ -37,10 +37,10 @@ class Result(NamedTuple):
     remark: str
 
 
-def ours(pgdr, model, limit, threads, folder):
+def ours(pgdr, model, limit, threads, tolerance, folder):
     stats = folder / "stats.json"
     code, seconds, text = attempt([pgdr, "mesh", model, "--radius-edge-ratio", BOUND, "--ignore-region-sizes", "--threads",
-                                   threads, "--quiet", "--stats", stats, "-o", folder / "out.mesh"], limit, folder)
+                                   threads, "--quiet", "--stats", stats, "-o", folder / "out.mesh", *tolerance], limit, folder)
     if code is None:
         return Result(0, 0, seconds, "no end")
     if code == INVALID:
@@ -49,7 +49,7 @@ def ours(pgdr, model, limit, threads, folder):
         return Result(0, 0, seconds, f"exit code {code}: {text.strip().splitlines()[-1] if text.strip() else ''}")
     numbers = json.loads(stats.read_text(encoding="utf-8"))
     # The checker makes the Delaunay triangulation again, on one thread: that takes longer than the mesh did.
-    code, _, _ = attempt([pgdr, "check", folder / "out.mesh", "--plc", model], 5 * limit, folder)
+    code, _, _ = attempt([pgdr, "check", folder / "out.mesh", "--plc", model, *tolerance], 5 * limit, folder)
     return Result(numbers["tetrahedra"], numbers["exempt_tetrahedra"], seconds, "" if code == 0 else "check fails")
 
 
@@ -91,9 +91,9 @@ def tetgens(tetgen, plc, limit, folder):
     return Result(len(ratios), sum(r > BOUND * (1 + 1e-9) for r in ratios), seconds, "")
 
 
-def corners(pgdr, model, plc, folder):
+def corners(pgdr, model, plc, tolerance, folder):
     """Writes the PLC as understood; plane corners below 14.48 degrees and the smallest angles."""
-    _, _, text = attempt([pgdr, "info", model, "--write-plc", plc], 600, folder)
+    _, _, text = attempt([pgdr, "info", model, "--write-plc", plc, *tolerance], 600, folder)
     def number(label):
         found = re.search(label + r"\s+([\d.,]+)", text)
         return float(found.group(1).replace(",", "").rstrip(".")) if found else 0.0
@@ -108,7 +108,9 @@ def main():
     parser.add_argument("--limit", type=float, default=60)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--no-tetgen", action="store_true")
+    parser.add_argument("--tolerance", help="as `pgdr mesh` takes it")
     arguments = parser.parse_args()
+    tolerance = ["--tolerance", arguments.tolerance] if arguments.tolerance else []
     tetgen = None if arguments.no_tetgen else shutil.which("tetgen")
     if not tetgen and not arguments.no_tetgen:
         sys.exit("tetgen is not installed")
@@ -118,11 +120,11 @@ def main():
     for model in models:
         with tempfile.TemporaryDirectory(prefix="pgdr-models-") as scratch:
             folder = Path(scratch)
-            our = ours(arguments.pgdr, model, arguments.limit, arguments.threads, folder)
+            our = ours(arguments.pgdr, model, arguments.limit, arguments.threads, tolerance, folder)
             if our is None:
                 invalid.append(model.stem)
                 continue
-            low_corners, dihedral, plane = corners(arguments.pgdr, model, folder / "fused.poly", folder)
+            low_corners, dihedral, plane = corners(arguments.pgdr, model, folder / "fused.poly", tolerance, folder)
             their = tetgens(tetgen, folder / "fused.poly", arguments.limit, folder) if tetgen else Result(0, 0, 0, "")
         allowed = 0 if min(dihedral, plane) >= 60 else max(their.over // 2, 2 * low_corners)
         more = our.tetrahedra / their.tetrahedra if their.tetrahedra and our.tetrahedra else 0

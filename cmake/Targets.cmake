@@ -14,7 +14,9 @@ function(pgdr_compile_options target)
   endif()
   if(PGDR_SANITIZE)
     target_compile_options(${target} PRIVATE
-      -fsanitize=${PGDR_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+      -fsanitize=${PGDR_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+      # oneTBB casts a task to its type after it was destroyed (_flow_graph_impl.h, destruct_and_deallocate), to free its memory.
+      $<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=vptr>)
     target_link_options(${target} PUBLIC -fsanitize=${PGDR_SANITIZE})
   endif()
 endfunction()

@@ -10,6 +10,7 @@
 #include <pgdr/domain/input_error.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/plc_from_domain_3.h>
+#include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 
 #include "plane_system.h"
@@ -32,6 +33,8 @@ constexpr double sideways = 16;
 /// Where vertices move too far, one facet of each that moves at least half as far as the farthest is given up: mostly the others are only its
 /// neighbors. After this many rounds, all of them.
 constexpr int careful_rounds = 16;
+/// Of Newton's method: three reach double precision from a thousandth of the size of a facet.
+constexpr int most_steps = 8, rough_steps = 2;
 /// How often triangles are fused: others may lie within the tolerance of one plane once their vertices have moved. Not until there are none,
 /// since a smooth surface would become ever larger facets.
 constexpr int fusings = 2;
@@ -63,11 +66,12 @@ class Planarizer {
   /// Where the points should be.
   std::vector<Vec_3> solution() {
     const Plane_system system(facets_, fixed_, bent * domain_.diagonal);
+    // Who moves too far is seen after a step or two.
+    for (int round = 0; round < careful_rounds; ++round)
+      if (!give_up_what_is_far(solve(system, rough_steps), true, false)) break;
     for (int round = 0;; ++round) {
-      fix_axes();
-      std::vector<Vec_3> points = start_;
-      system.solve(points, is_on_);
-      if (!give_up_what_is_far(points, round < careful_rounds)) return points;
+      std::vector<Vec_3> points = solve(system, most_steps);
+      if (!give_up_what_is_far(points, round < careful_rounds, true)) return points;
     }
   }
 
@@ -143,6 +147,13 @@ class Planarizer {
     }
   }
 
+  std::vector<Vec_3> solve(const Plane_system& system, int steps) {
+    fix_axes();
+    std::vector<Vec_3> points = start_;
+    system.solve(points, is_on_, steps);
+    return points;
+  }
+
   double off_plane(const Domain::Facet& facet, Index v, const std::vector<Vec_3>& points) const {
     return std::abs(dot(to_vec(facet.normal), points[v] - input_[v]));
   }
@@ -157,7 +168,7 @@ class Planarizer {
   }
 
   /// \return whether there is something to give up.
-  bool give_up_what_is_far(const std::vector<Vec_3>& points, bool is_careful) {
+  bool give_up_what_is_far(const std::vector<Vec_3>& points, bool is_careful, bool is_solved) {
     const std::vector<double> moved = moves(points);
     const double too_far = std::max(1.0, is_careful ? *std::max_element(moved.begin(), moved.end()) / 2 : 0.0);
     // Of the facets at a vertex, the one that needs the fewest triangles if it is not fused.
@@ -171,7 +182,7 @@ class Planarizer {
       if (!is_on_[f]) continue;
       const bool is_far = std::any_of(facets_[f].begin(), facets_[f].end(),
                                       [&](Index v) { return moved[v] > too_far && (!is_careful || smallest[v] == f); });
-      if (!is_far && Plane_system::bend(facets_[f], points) <= unsolved * domain_.diagonal) continue;
+      if (!is_far && (!is_solved || Plane_system::bend(facets_[f], points) <= unsolved * domain_.diagonal)) continue;
       is_on_[f] = false;
       some = true;
     }
@@ -262,12 +273,50 @@ Low_corners low_corners(const Domain& domain, const Plc& input, double height) {
   return low;
 }
 
+/// Finds the segments where a move made a small dihedral angle of a larger one: a facet has fallen onto its neighbor.
+class Dihedral_guard {
+ public:
+  explicit Dihedral_guard(const Domain& before) {
+    for_each_angle(before, [&](const auto& segment, double angle) { before_.push_back({ends(before, segment), angle}); });
+    std::ranges::sort(before_);
+  }
+
+  /// The input facets at such segments.
+  std::vector<Index> sharpened(const Domain& now) const {
+    constexpr double small = 60, much = 0.5;  // degrees, as elsewhere: above, refinement has no trouble; and of what it was
+    std::vector<Index> result;
+    for_each_angle(now, [&](const auto& segment, double angle) {
+      if (angle >= small) return;
+      const auto ends_now = ends(now, segment);
+      const auto was = std::ranges::lower_bound(before_, std::pair(ends_now, 0.0));
+      if (was != before_.end() && was->first == ends_now && angle >= much * was->second) return;
+      for (const Index f : segment.facets)
+        result.insert(result.end(), now.facets[f].input_facets.begin(), now.facets[f].input_facets.end());
+    });
+    return result;
+  }
+
+ private:
+  static domain_detail::Index_pair ends(const Domain& domain, const Domain::Segment& s) {
+    return domain_detail::sorted_pair(domain.input_vertex[s.vertices[0]], domain.input_vertex[s.vertices[1]]);
+  }
+
+  template <class Found>
+  static void for_each_angle(const Domain& domain, const Found& found) {
+    const std::vector<double> angles = dihedral_angles_3(domain, domain_detail::Facet_edges(domain));
+    for (std::size_t s = 0; s < angles.size(); ++s) found(domain.segments[s], angles[s]);
+  }
+
+  std::vector<std::pair<domain_detail::Index_pair, double>> before_;
+};
+
 }  // namespace
 
 Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done) {
   if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done);
   Plc best = plc;
   Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+  const Dihedral_guard guard(domain);
   // Other triangles may lie within the tolerance of one plane once their vertices have moved.
   for (int fusing = 0; fusing < fusings; ++fusing) {
     Planarizer planarizer(domain, plc);
@@ -284,6 +333,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
         Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
         const Low_corners low = low_corners(plane, plc, lowest * plane.tolerance);
         concerned = low.facets;
+        for (const Index f : guard.sharpened(plane)) concerned.push_back(f);
         for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
           concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
         if (concerned.empty()) {

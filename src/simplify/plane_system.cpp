@@ -18,8 +18,6 @@ constexpr double plane_weight = 1e-6;
 /// What keeps the system regular where planes are nearly parallel (Levenberg, Marquardt): a step takes away all of an error but this part
 /// divided by the square of the angle between them.
 constexpr double damping = 1e-8;
-/// Steps are of second order: three reach double precision from a thousandth of the size of a facet.
-constexpr int most_steps = 8;
 
 /// A plane through points, with coordinates in it that are at most 1.
 struct Frame {
@@ -50,7 +48,7 @@ double Plane_system::bend(const Vertices& facet, const std::vector<Vec_3>& point
   return facet.size() > 3 ? Frame(facet, points).positions.col(2).cwiseAbs().maxCoeff() : 0;
 }
 
-void Plane_system::solve(std::vector<Vec_3>& points, const std::vector<bool>& is_on) const {
+void Plane_system::solve(std::vector<Vec_3>& points, const std::vector<bool>& is_on, int most_steps) const {
   std::vector<Index> facets;
   for (Index f = 0; f < facets_.size(); ++f)
     if (is_on[f] && facets_[f].size() > 3) facets.push_back(f);

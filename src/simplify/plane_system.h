@@ -23,8 +23,9 @@ class Plane_system {
   Plane_system(const std::vector<Vertices>& facets, const std::vector<Fixed_axes>& fixed, double enough)
       : facets_(facets), fixed_(fixed), enough_(enough) {}
 
-  /// Moves the points, as little as possible, until those of each facet with `is_on` are in a plane, or no step gets any closer.
-  void solve(std::vector<Vec_3>& points, const std::vector<bool>& is_on) const;
+  /// Moves the points, as little as possible, until those of each facet with `is_on` are in a plane, no step gets any closer, or there were
+  /// as many.
+  void solve(std::vector<Vec_3>& points, const std::vector<bool>& is_on, int most_steps) const;
 
   /// Largest distance of the points from the plane that fits them best (least squares).
   static double bend(const Vertices& facet, const std::vector<Vec_3>& points);

@@ -150,6 +150,25 @@ TEST_CASE("a run that stops before there are tetrahedra leaves the file alone", 
   CHECK(file_text(sandbox / "keep.mesh") == "precious");
 }
 
+TEST_CASE("a tolerance is measured by check, and named where a run stops at needles", "[apps]") {
+  const auto wing = pgdr_test::input_model("a04_anchor.off");
+  if (!wing) return;
+  const Sandbox sandbox;
+  const std::string model = pgdr_test::quoted(wing->string());
+  const Run stopped = sandbox.run("mesh --quiet " + model + " -o out.mesh --max-vertices 2000");
+  CHECK(stopped.exit_code == 4);
+  CHECK(stopped.err.find("--tolerance 1e-5d") != std::string::npos);
+  CHECK(sandbox.run("mesh --quiet " + model + " -o exact.mesh --stats exact.json").exit_code == 0);
+  CHECK(sandbox.run("mesh --quiet " + model + " -o out.mesh --tolerance 1e-4d --stats out.json").exit_code == 0);
+  const auto count = [&](const char* file) { return json::parse(file_text(sandbox / file))["tetrahedra"].get<int>(); };
+  CHECK(count("out.json") < count("exact.json") / 2);
+  const Run check = sandbox.run("check out.mesh --tolerance 1e-4d --plc " + model);
+  CHECK(check.exit_code == 0);
+  CHECK(check.out.find("ok    tolerance ") != std::string::npos);
+  // Against the file as it is, the mesh is none of it.
+  CHECK(sandbox.run("check out.mesh --plc " + model).exit_code == 1);
+}
+
 TEST_CASE("limits stop the run with exit code 4, say why, and count what is left", "[apps]") {
   const Sandbox sandbox;
   const std::string mesh = "mesh " + shape("cube.poly") + " -o out.mesh --stats - ";

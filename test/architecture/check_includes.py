@@ -23,7 +23,7 @@ ALLOWED = {
     "parallel": set(),
     "octree": set(),
     "independence": {"octree"},
-    "simplify": {"domain"},
+    "simplify": {"domain", "parallel"},
     "repair": {"domain"},
     "acute": {"domain", "mesh"},
 }

@@ -46,6 +46,32 @@ inline double smallest_gap_deg(std::vector<double>& angles) {
 
 }  // namespace domain_detail
 
+/// Per segment, the smallest dihedral angle between two sheets there, as in `Small_angles::segment_deg`.
+template <class K>
+std::vector<double> dihedral_angles_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges) {
+  using namespace domain_detail;
+  std::vector<double> result(domain.segments.size(), 180);
+  // The directions in which sheets leave, as angles around the segment.
+  std::vector<double> around;
+  for (std::size_t s = 0; s < domain.segments.size(); ++s) {
+    around.clear();
+    const auto [a, b] = domain.segments[s].vertices;
+    const Vec_3 axis = normalized(to_vec(domain.vertices[b]) - to_vec(domain.vertices[a]));
+    Vec_3 u, v;
+    for (const Sheet& sheet : edges.sheets(s)) {
+      const Vec_3 leaving = inward(domain, sheet, axis);
+      if (around.empty()) {
+        u = normalized(leaving - dot(leaving, axis) * axis);
+        v = cross(axis, u);
+      }
+      const double angle = to_degrees(arc_tangent(dot(leaving, v), dot(leaving, u)));
+      around.push_back(angle < 0 ? angle + 360 : angle);
+    }
+    result[s] = smallest_gap_deg(around);
+  }
+  return result;
+}
+
 /// Measures the angles at every vertex, segment and facet corner of a domain.
 template <class K>
 Small_angles small_angles_3(const Domain_3<K>& domain) {
@@ -57,27 +83,8 @@ Small_angles small_angles_3(const Domain_3<K>& domain) {
 
   Small_angles result;
   result.vertex_deg.assign(points.size(), 180);
-  result.segment_deg.assign(domain.segments.size(), 180);
-
-  // Segments: the directions in which sheets leave, as angles around the segment.
-  std::vector<double> around;
-  for (std::size_t s = 0; s < domain.segments.size(); ++s) {
-    around.clear();
-    const auto [a, b] = domain.segments[s].vertices;
-    const Vec_3 axis = normalized(points[b] - points[a]);
-    Vec_3 u, v;
-    for (const Sheet& sheet : edges.sheets(s)) {
-      const Vec_3 leaving = inward(domain, sheet, axis);
-      if (around.empty()) {
-        u = normalized(leaving - dot(leaving, axis) * axis);
-        v = cross(axis, u);
-      }
-      const double angle = to_degrees(arc_tangent(dot(leaving, v), dot(leaving, u)));
-      around.push_back(angle < 0 ? angle + 360 : angle);
-    }
-    result.segment_deg[s] = smallest_gap_deg(around);
-    result.smallest_dihedral_deg = std::min(result.smallest_dihedral_deg, result.segment_deg[s]);
-  }
+  result.segment_deg = dihedral_angles_3(domain, edges);
+  for (const double angle : result.segment_deg) result.smallest_dihedral_deg = std::min(result.smallest_dihedral_deg, angle);
 
   // Corners inside facets.
   for (const Facet_corner& corner : edges.corners(points)) {

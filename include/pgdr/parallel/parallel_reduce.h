@@ -32,7 +32,7 @@ template <class Map>
 auto parallel_collect(std::size_t n, std::size_t grain, const Map& map) {
   return parallel_reduce(n, grain, decltype(map(n, n)){}, map, [](auto& all, auto&& part) {
     if (all.empty())
-      all = std::move(part);
+      all = std::forward<decltype(part)>(part);
     else
       all.insert(all.end(), part.begin(), part.end());
   });

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SIMPLIFY_SIMPLIFY_WITHIN_H
+#define PGDR_SIMPLIFY_SIMPLIFY_WITHIN_H
+
+#include <pgdr/domain/default_kernel.h>
+#include <pgdr/simplify/planarize.h>
+#include <pgdr/simplify/simplify.h>
+
+namespace pgdr {
+
+/// What `simplify_within` did.
+struct Simplification_within {
+  Simplification simplification;
+  Planarization planarization;  ///< of all passes: facets and moves added up, a vertex once for each pass that moved it
+
+  bool is_none() const { return simplification.is_none() && planarization.is_none(); }
+};
+
+/// Changes the boundary by at most a tolerance, so that elements are not small without need: what is smaller than it is taken away
+/// (`simplify`), and neighboring triangles within it of a common plane become a plane facet (`planarize`), whose edges constrain nothing any more. In
+/// CAD exports most triangles of a hundredth of a degree are strips of such facets.
+///
+/// Where the tolerance is no more than `coplanar_tolerance` of the diagonal, what is fused anyway is all that is made plane.
+/// \param tolerance a length; 0 or less: nothing is changed
+/// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the result, and has to understand `plc`
+/// \return a PLC whose facets `make_domain_3` fuses again. It may have become invalid (`validate_domain_3`) where features are closer to each
+///   other than the tolerance
+Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate = false, Simplification_within* done = nullptr);
+
+}  // namespace pgdr
+
+#endif
