@@ -11,9 +11,9 @@ namespace pgdr {
 
 namespace {
 
-// What the parts of the whole may change, each, so that all together stay within the tolerance: one simplification, and two passes whose
-// stages add up to 10/9 of the last: 1/2 + 2 * 10/9 * 1/5 < 1.
-constexpr double for_simplification = 0.5;
+// What the parts of the whole may change, each, so that all together stay within the tolerance: two simplifications, and two passes whose
+// stages add up to 10/9 of the last: 2 * 1/4 + 2 * 10/9 * 1/5 < 1.
+constexpr double for_simplification = 0.25;
 constexpr double for_planarization = 0.2;
 constexpr double stage = 10;  ///< how much wider each stage of a pass is than the one before
 
@@ -30,11 +30,10 @@ class Planarization_passes {
   void run(Plc& plc, Planarization& done) const {
     for (const double t : stages_) one(plc, t, done);
   }
-  /// Once more at the widest, where something was taken away since, and what is fused in the end.
-  void finish(Plc& plc, Planarization& done, bool is_wide) const {
-    if (is_wide) one(plc, stages_.back(), done);
-    one(plc, stages_.front(), done);
-  }
+  /// Where something was taken away since.
+  void repeat_widest(Plc& plc, Planarization& done) const { one(plc, stages_.back(), done); }
+  /// What is fused in the end.
+  void finish(Plc& plc, Planarization& done) const { one(plc, stages_.front(), done); }
 
  private:
   void one(Plc& plc, double tolerance, Planarization& done) const {
@@ -66,9 +65,22 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   const bool is_wide = last > coplanar_tolerance;
   const Planarization_passes passes(last, coplanar_tolerance, triangulate);
   Plc result = plc;
+  const auto take_away = [&] {
+    Simplification now;
+    result = simplify(result, is_wide ? for_simplification * tolerance : tolerance, &now);
+    if (now.is_none()) return;
+    report.simplification.facets = now.facets;
+    report.simplification.collapsed_edges += now.collapsed_edges;
+    report.simplification.removed_needles += now.removed_needles;
+    report.simplification.largest_change += now.largest_change;
+  };
   if (is_wide) passes.run(result, report.planarization);
-  result = simplify(result, is_wide ? for_simplification * tolerance : tolerance, &report.simplification);
-  passes.finish(result, report.planarization, is_wide);
+  take_away();
+  if (is_wide) {
+    passes.repeat_widest(result, report.planarization);
+    take_away();  // where two planes became one, what was between them is left as edges a thousandth as long
+  }
+  passes.finish(result, report.planarization);
   return result;
 }
 
