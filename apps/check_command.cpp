@@ -43,10 +43,10 @@ int run_check(const Check_arguments& arguments) {
     const Input input = read_input(arguments.inputs, arguments.domain);
     domain = understand(input, arguments.domain);
     print_or_throw(find_problems(*domain));
-    if (input.limit > 0)
-      lines.push_back({"tolerance", input.distance.is_within,
-                       "what is meshed is within " + significant(input.limit, 3) + " of the input and the input within that of it; the largest distance met is " +
-                           significant(input.distance.seen, 3)});
+    if (input.simplified.limit > 0)
+      lines.push_back({"tolerance", input.simplified.distance.is_within,
+                       "what is meshed is within " + significant(input.simplified.limit, 3) + " of the input and the input within that of it; the largest distance met is " +
+                           significant(input.simplified.distance.seen, 3)});
   }
   for (Check_line& line : check_mesh(read_medit(arguments.mesh), domain ? &*domain : nullptr, options)) lines.push_back(std::move(line));
   for (const Check_line& line : lines) {

@@ -104,11 +104,11 @@ int run_info(const Info_arguments& arguments) {
   check_outputs(arguments);
   const Input input = read_input(arguments.inputs, arguments.domain);
   if (!input.repair.is_none()) print_line("repaired", repair_text(input.repair));
-  if (!input.simplification.is_none())
-    print_line("simplified", simplification_text(input.simplification) + "; --tolerance 0 keeps them");
-  if (!input.planarization.is_none())
-    print_line("made plane", counted(input.planarization.flattened_facets, "facet", "facets") + ": " +
-                                 planarization_text(input.planarization) + "; --tolerance 0 keeps them");
+  if (!input.simplified.simplification.is_none())
+    print_line("simplified", simplification_text(input.simplified.simplification) + "; --tolerance 0 keeps them");
+  if (!input.simplified.planarization.is_none())
+    print_line("made plane", counted(input.simplified.planarization.flattened_facets, "facet", "facets") + ": " +
+                                 planarization_text(input.simplified.planarization) + "; --tolerance 0 keeps them");
   with_problem_file(arguments.problems, input.plc, [&] {
     const Domain domain = understand(input, arguments.domain);
     const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(arguments.problems));

@@ -201,8 +201,8 @@ int run_mesh(const Mesh_arguments& arguments) {
     const Input input = read_input(arguments.inputs, arguments.domain);
     const Plc& plc = input.plc;
     run.repair = input.repair;
-    run.simplification = input.simplification;
-    run.planarization = input.planarization;
+    run.simplification = input.simplified.simplification;
+    run.planarization = input.simplified.planarization;
     timer.end_phase("reading");
     progress.show("checking the input");
     with_problem_file(arguments.problems, plc, [&] {

@@ -2,9 +2,6 @@
 #include "read_domain.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include <pgdr/domain/make_domain_3.h>
@@ -104,22 +101,11 @@ Plc repaired_input(const std::vector<std::string>& files, const Domain_options& 
   return parts.size() == 1 ? repair(parts[0], how, &report) : assemble(parts, how, &report);
 }
 
-/// The height of the lowest triangle of the facets; none if the PLC is not valid.
-std::optional<double> lowest_triangle(const Plc& plc, const Domain_options& options, double fusing_tolerance) {
+bool can_be_meshed(const Plc& plc, const Domain_options& options, double fusing_tolerance) {
   try {
-    const Domain domain = make_domain_3(plc, fusing_tolerance, options.accepts_bent_polygons());
-    if (!find_problems(domain, 1).errors.empty()) return std::nullopt;
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const auto& facet : domain.facets)
-      for (const auto& t : facet.triangles) {
-        const auto corner = [&](int i) { return to_vec(domain.vertices[t[i]]); };
-        const Vec_3 a = corner(1) - corner(0), b = corner(2) - corner(0), c = b - a;
-        const double longest = std::max({squared_length(a), squared_length(b), squared_length(c)});
-        lowest = std::min(lowest, length(cross(a, b)) / std::sqrt(longest));
-      }
-    return lowest;
+    return find_problems(make_domain_3(plc, fusing_tolerance, options.accepts_bent_polygons()), 1).errors.empty();
   } catch (const Input_error&) {
-    return std::nullopt;
+    return false;
   }
 }
 
@@ -137,7 +123,7 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
   plc = repaired_input(files, options, input.repair);
   input.fusing_tolerance = options.fusing_tolerance();
   // Two sheets of a repaired surface may be closer to each other than facets are bent when they are fused.
-  if (!input.repair.is_none() && !lowest_triangle(plc, options, input.fusing_tolerance)) input.fusing_tolerance = 0;
+  if (!input.repair.is_none() && !can_be_meshed(plc, options, input.fusing_tolerance)) input.fusing_tolerance = 0;
   const double unit = unit_of(plc);
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
   for (const std::string& text : options.holes) {
@@ -154,36 +140,7 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
 
   const double tolerance = simplification(files, options).in_units(bounding_diagonal(plc));
   if (tolerance <= 0) return input;
-  // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured. Where features
-  // are closer to each other than the tolerance the result may be invalid, or have much lower triangles than before where a vertex came next to an edge; then
-  // less is done, and at last nothing.
-  constexpr double much_lower = 0.01;  // of the tolerance, and below half of what is there if only noise is taken away
-  const bool triangulate = options.accepts_bent_polygons();
-  const double fused = input.fusing_tolerance * bounding_diagonal(plc);
-  const double limit = tolerance + fused;
-  for (const double within : {tolerance > fused ? 2 * tolerance : tolerance, tolerance, std::min(tolerance, fused), 0.0}) {
-    Simplification_within done;
-    Plc simplified = simplify_within(plc, within, input.fusing_tolerance, triangulate, &done);
-    if (done.is_none()) break;
-    const auto lowest = lowest_triangle(simplified, options, input.fusing_tolerance);
-    if (!lowest) continue;
-    if (within > fused) {
-      if (*lowest < much_lower * tolerance / unit_of(plc)) {
-        const Plc least = simplify_within(plc, fused, input.fusing_tolerance, triangulate);
-        const auto before = lowest_triangle(least, options, input.fusing_tolerance);
-        if (!before || *lowest < *before / 2) continue;
-      }
-      const auto distance = surface_distance(plc, simplified, limit / unit_of(plc));
-      if (!distance || !distance->is_within) continue;
-      input.limit = limit;
-      input.distance = *distance;
-      input.distance.seen *= unit_of(plc);
-    }
-    plc = std::move(simplified);
-    input.simplification = done.simplification;
-    input.planarization = done.planarization;
-    break;
-  }
+  input.plc = simplify_within(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
   return input;
 }
 

@@ -16,7 +16,6 @@
 #include <pgdr/io/write_problems.h>
 #include <pgdr/repair/repair.h>
 #include <pgdr/simplify/simplify_within.h>
-#include <pgdr/simplify/surface_distance.h>
 
 namespace pgdr::app {
 
@@ -51,11 +50,7 @@ struct Input {
   Plc plc;  ///< with the seeds of the options
   double fusing_tolerance = 0;  ///< that of the options, or 0 where what was repaired would not be valid with it
   Repair_report repair;
-  Simplification simplification;
-  Planarization planarization;
-  /// For the distance of what is meshed from what was read, or repaired; 0: nothing was changed since by more than facets are fused.
-  double limit = 0;
-  Surface_distance distance;  ///< as measured, where there is a limit
+  Simplification_within simplified;
 };
 
 /// Reads a file, or several as the parts of an assembly, repairs it if the options say so, simplifies it as far as they say, and makes its

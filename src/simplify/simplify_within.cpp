@@ -2,56 +2,61 @@
 #include <pgdr/simplify/simplify_within.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include <pgdr/domain/input_error.h>
+#include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/scale.h>
+#include <pgdr/domain/small_angles_3.h>
+#include <pgdr/domain/validate_domain_3.h>
+
+#include "simplify_in_stages.h"
 
 namespace pgdr {
 
 namespace {
 
-// What the parts of the whole may change, each, so that all together stay within the tolerance: two simplifications, and two passes whose
-// stages add up to 10/9 of the last: 2 * 1/4 + 2 * 10/9 * 1/5 < 1.
-constexpr double for_simplification = 0.25;
-constexpr double for_planarization = 0.2;
-constexpr double stage = 10;  ///< how much wider each stage of a pass is than the one before
-
-/// From narrow to wide: facets that are nearly plane are plane before they are seen as parts of wider ones. All at once, a wing section
-/// of 900 strips has 707 facets that cannot be made plane at 1e-4 of its diagonal; in stages it has 2.
-class Planarization_passes {
- public:
-  Planarization_passes(double last, double coplanar_tolerance, bool triangulate) : triangulate_(triangulate) {
-    for (double t = last; t > coplanar_tolerance; t /= stage) stages_.push_back(t);
-    stages_.push_back(coplanar_tolerance);
-    std::ranges::reverse(stages_);
-  }
-
-  void run(Plc& plc, Planarization& done) const {
-    for (const double t : stages_) one(plc, t, done);
-  }
-  /// Where something was taken away since.
-  void repeat_widest(Plc& plc, Planarization& done) const { one(plc, stages_.back(), done); }
-  /// What is fused in the end.
-  void finish(Plc& plc, Planarization& done) const { one(plc, stages_.front(), done); }
-
- private:
-  void one(Plc& plc, double tolerance, Planarization& done) const {
-    try {
-      Planarization now;
-      plc = planarize(plc, tolerance, triangulate_, &now);
-      done.flattened_facets += now.flattened_facets;
-      done.bent_facets = now.bent_facets;
-      done.moved_vertices += now.moved_vertices;
-      done.largest_change += now.largest_change;
-    } catch (const Input_error&) {
-      // Fused this wide, facets are not valid; what is wrong with the input itself is said when that is understood.
-    }
-  }
-
-  bool triangulate_;
-  std::vector<double> stages_;
+/// What makes elements small in a domain.
+struct Narrowness {
+  double lowest = std::numeric_limits<double>::infinity();  ///< height of the lowest triangle of the facets
+  /// How often corners of facets would have to be halved to get from the angle above which the bound on the ratio can hold to theirs, all together.
+  /// Tetrahedra that needles cost go by it: a knob (a26) has 7,546 and 7.0 million, after 1e-4d 385 and 0.5; cones17 710 and 0.6, or 1,145 and 0.9.
+  double corners = 0;
 };
+
+/// None if the PLC is not valid.
+std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, bool triangulate) {
+  try {
+    const Domain_3<Default_kernel> domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+    if (!std::ranges::all_of(validate_domain_3(domain, 1), &Input_problem::is_warning)) return std::nullopt;
+    std::vector<Vec_3> points;
+    for (const auto& p : domain.vertices) points.push_back(to_vec(p));
+    Narrowness n;
+    for (const auto& facet : domain.facets)
+      for (const auto& t : facet.triangles) {
+        const Vec_3 a = points[t[1]] - points[t[0]], b = points[t[2]] - points[t[0]], c = b - a;
+        const double longest = std::max({squared_length(a), squared_length(b), squared_length(c)});
+        n.lowest = std::min(n.lowest, length(cross(a, b)) / std::sqrt(longest));
+      }
+    for (const auto& corner : domain_detail::Facet_edges(domain).corners(points))
+      for (double angle = Small_angles::critical_plane_angle_deg; corner.angle_deg < angle && angle > 1e-9; angle /= 2)
+        n.corners += std::min(1.0, angle / std::max(corner.angle_deg, 1e-9) - 1);
+    return n;
+  } catch (const Input_error&) {
+    return std::nullopt;
+  }
+}
+
+/// Whether a wider tolerance has made matters worse: a vertex that came next to an edge, or many narrower corners.
+bool is_worse(const Narrowness& now, const std::optional<Narrowness>& noise_only, double tolerance) {
+  constexpr double much_lower = 0.01;          // of the tolerance, and below half of what there was
+  constexpr double more = 1.1, some = 2;       // corners may become narrower by a tenth, or by two halvings
+  if (!noise_only) return false;
+  return (now.lowest < much_lower * tolerance && now.lowest < noise_only->lowest / 2) || now.corners > more * noise_only->corners + some;
+}
 
 }  // namespace
 
@@ -59,29 +64,30 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   Simplification_within ignored;
   Simplification_within& report = done ? *done : ignored;
   report = {};
-  const double diagonal = bounding_diagonal(plc);
-  if (!(tolerance > 0) || !(diagonal > 0)) return plc;
-  const double last = for_planarization * tolerance / diagonal;
-  const bool is_wide = last > coplanar_tolerance;
-  const Planarization_passes passes(last, coplanar_tolerance, triangulate);
-  Plc result = plc;
-  const auto take_away = [&] {
-    Simplification now;
-    result = simplify(result, is_wide ? for_simplification * tolerance : tolerance, &now);
-    if (now.is_none()) return;
-    report.simplification.facets = now.facets;
-    report.simplification.collapsed_edges += now.collapsed_edges;
-    report.simplification.removed_needles += now.removed_needles;
-    report.simplification.largest_change += now.largest_change;
-  };
-  if (is_wide) passes.run(result, report.planarization);
-  take_away();
-  if (is_wide) {
-    passes.repeat_widest(result, report.planarization);
-    take_away();  // where two planes became one, what was between them is left as edges a thousandth as long
+  if (!(tolerance > 0)) return plc;
+  if (exponent_for(plc) != 0) return simplify_within(normalized(plc), tolerance, coplanar_tolerance, triangulate, done);
+  const double fused = coplanar_tolerance * bounding_diagonal(plc), limit = tolerance + fused;
+  std::optional<Narrowness> noise_only;
+  if (tolerance > fused)
+    noise_only = narrowness(simplify_detail::simplify_in_stages(plc, fused, coplanar_tolerance, triangulate, report), coplanar_tolerance, triangulate);
+  // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
+  for (const double within : {tolerance > fused ? 2 * tolerance : tolerance, tolerance, tolerance / 4, std::min(tolerance, fused)}) {
+    Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report);
+    if (report.is_none()) break;
+    const auto now = narrowness(result, coplanar_tolerance, triangulate);
+    if (!now) continue;
+    if (within > fused) {
+      if (is_worse(*now, noise_only, tolerance / unit_of(plc))) continue;
+      const auto distance = surface_distance(plc, result, limit / unit_of(plc));
+      if (!distance || !distance->is_within) continue;
+      report.limit = limit;
+      report.distance = *distance;
+      report.distance.seen *= unit_of(plc);
+    }
+    return result;
   }
-  passes.finish(result, report.planarization);
-  return result;
+  report = {};
+  return plc;
 }
 
 }  // namespace pgdr

@@ -5,6 +5,7 @@
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/simplify/planarize.h>
 #include <pgdr/simplify/simplify.h>
+#include <pgdr/simplify/surface_distance.h>
 
 namespace pgdr {
 
@@ -12,6 +13,9 @@ namespace pgdr {
 struct Simplification_within {
   Simplification simplification;
   Planarization planarization;  ///< of all passes: facets and moves added up, a vertex once for each pass that moved it
+  /// For the distance of the result from what it was made of; 0: it has not changed by more than facets are fused.
+  double limit = 0;
+  Surface_distance distance;  ///< as measured, where there is a limit
 
   bool is_none() const { return simplification.is_none() && planarization.is_none(); }
 };
@@ -22,9 +26,10 @@ struct Simplification_within {
 ///
 /// Where the tolerance is no more than `coplanar_tolerance` of the diagonal, what is fused anyway is all that is made plane.
 /// \param tolerance a length; 0 or less: nothing is changed
-/// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the result, and has to understand `plc`
-/// \return a PLC whose facets `make_domain_3` fuses again. It may have become invalid (`validate_domain_3`) where features are closer to each
-///   other than the tolerance
+/// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the result
+/// The result is valid, its distance from `plc` was measured (`surface_distance`), and it has no narrower corners than if only noise was taken
+/// away; where the tolerance does not lead to that, a smaller one is taken, and at last `plc` itself is returned.
+/// \return a PLC whose facets `make_domain_3` fuses again
 Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate = false, Simplification_within* done = nullptr);
 
 }  // namespace pgdr

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SIMPLIFY_SIMPLIFY_IN_STAGES_H
+#define PGDR_SIMPLIFY_SIMPLIFY_IN_STAGES_H
+
+#include <pgdr/simplify/simplify_within.h>
+
+namespace pgdr::simplify_detail {
+
+/// What `simplify_within` does with one tolerance, without looking at what came of it: it may be invalid where features are closer to each other
+/// than the tolerance, or worse than before.
+Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, Simplification_within& report);
+
+}  // namespace pgdr::simplify_detail
+
+#endif
