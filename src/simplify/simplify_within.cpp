@@ -52,10 +52,9 @@ std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, 
 
 /// Whether a wider tolerance has made matters worse: a vertex that came next to an edge, or many narrower corners.
 bool is_worse(const Narrowness& now, const std::optional<Narrowness>& noise_only, double tolerance) {
-  constexpr double much_lower = 0.01;          // of the tolerance, and below half of what there was
-  constexpr double more = 1.1, some = 2;       // corners may become narrower by a tenth, or by two halvings
+  constexpr double much_lower = 0.01;  // of the tolerance, and below half of what there was
   if (!noise_only) return false;
-  return (now.lowest < much_lower * tolerance && now.lowest < noise_only->lowest / 2) || now.corners > more * noise_only->corners + some;
+  return (now.lowest < much_lower * tolerance && now.lowest < noise_only->lowest / 2) || now.corners > noise_only->corners;
 }
 
 }  // namespace
