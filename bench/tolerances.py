@@ -35,8 +35,8 @@ def diagonal(text):
 def row(pgdr, model, tolerance, limit, threads, folder):
     how = ["--tolerance", tolerance]
     _, _, info = attempt([pgdr, "info", model, *how], limit, folder)
-    facets = int(number(info, r"facets\s+([\d,]+)"))
-    name = [model.stem, "exact" if tolerance == "0" else tolerance, f"{facets:,}"]
+    facets = number(info, r"facets\s+([\d,]+)")
+    name = [model.stem, "exact" if tolerance == "0" else tolerance, "" if math.isnan(facets) else f"{facets:,.0f}"]
     stats, mesh = folder / "stats.json", folder / "out.mesh"
     code, seconds, _ = attempt([pgdr, "mesh", model, "--quiet", "--threads", threads, "--stats", stats, "-o", mesh, *how], limit, folder)
     if code != 0:

@@ -86,7 +86,8 @@ class One_way {
         triangles.size(), 256, Surface_distance{0, true, {}},
         [&](std::size_t first, std::size_t last) {
           Surface_distance d{0, true, {}};
-          for (std::size_t t = first; t < last; ++t) look(triangles[t], d);
+          std::size_t looks = most_looks;
+          for (std::size_t t = first; t < last && d.is_within; ++t) look(triangles[t], d, looks);
           return d;
         },
         [](Surface_distance& all, const Surface_distance& part) {
@@ -96,6 +97,9 @@ class One_way {
   }
 
  private:
+  /// At parts of 256 triangles, which take a second. Where a large triangle lies on thousands of needles, each part of it has to be as small as one.
+  static constexpr std::size_t most_looks = 50000;
+
   struct Corner {
     Point at;
     const Triangle* nearest;
@@ -108,7 +112,7 @@ class One_way {
     return {p, &*found.second};
   }
 
-  void look(const Triangle& triangle, Surface_distance& d) const {
+  void look(const Triangle& triangle, Surface_distance& d, std::size_t& looks) const {
     std::vector<std::array<Corner, 3>> parts{{corner(triangle[0], d), corner(triangle[1], d), corner(triangle[2], d)}};
     while (!parts.empty() && d.seen * d.seen <= squared_limit_) {
       const std::array<Corner, 3> part = parts.back();
@@ -118,7 +122,7 @@ class One_way {
       double most = 0;
       for (std::size_t i = 0; i < 3; ++i)
         if (const double l = CGAL::squared_distance(part[(i + 1) % 3].at, part[(i + 2) % 3].at); l > most) most = l, longest = i;
-      if (most < 1e-6 * squared_limit_) {
+      if (most < 1e-6 * squared_limit_ || looks-- == 0) {
         d.is_within = false;
         return;
       }

@@ -19,7 +19,7 @@ struct Surface_distance {
 
 /// Compares two PLCs in the same unit, without any knowledge of how one came from the other. Where a triangle of one is within the limit of a
 /// single triangle of the other at its corners, it is at all of its points, since distances from a convex set are convex functions; others are
-/// divided. A part smaller than a thousandth of the limit that still has no such triangle counts as too far.
+/// divided. A part smaller than a thousandth of the limit that still has no such triangle counts as too far, and so does what takes too long to be divided.
 /// \param limit a length
 /// \return nothing if a facet of either cannot be understood
 std::optional<Surface_distance> surface_distance(const Plc& a, const Plc& b, double limit);
