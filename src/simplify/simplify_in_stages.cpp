@@ -22,7 +22,11 @@ constexpr double stage = 10;  ///< how much wider each stage of a pass is than t
 class Planarization_passes {
  public:
   Planarization_passes(double last, double coplanar_tolerance, bool triangulate) : triangulate_(triangulate) {
-    for (double t = last; t > coplanar_tolerance; t /= stage) stages_.push_back(t);
+    double t = last;
+    while (t > coplanar_tolerance) {
+      stages_.push_back(t);
+      t /= stage;
+    }
     stages_.push_back(coplanar_tolerance);
     std::ranges::reverse(stages_);
   }
