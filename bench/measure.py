@@ -2,6 +2,7 @@
 """What the benchmark scripts share: timed runs, medians, Markdown tables."""
 
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -49,6 +50,12 @@ def attempt(command, limit, folder):
     except subprocess.TimeoutExpired:
         return None, limit, ""
     return done.returncode, time.perf_counter() - begin, done.stdout + done.stderr
+
+
+def number(text, pattern, otherwise):
+    """What the first group of a pattern holds, thousands separated or not."""
+    found = re.search(pattern, text)
+    return float(found.group(1).replace(",", "").rstrip(".")) if found else otherwise
 
 
 def median(values):

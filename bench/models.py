@@ -15,7 +15,6 @@ Needs: cmake --build build/release --target pgdr-app; Debian's package tetgen, b
 import argparse
 import json
 import math
-import re
 import shutil
 import subprocess
 import sys
@@ -23,7 +22,7 @@ import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
-from measure import ROOT, attempt, median, note, table
+from measure import ROOT, attempt, median, note, number, table
 
 BOUND = 2.0
 INVALID = 3  # exit code for input that cannot be meshed
@@ -94,10 +93,9 @@ def tetgens(tetgen, plc, limit, folder):
 def corners(pgdr, model, plc, tolerance, folder):
     """Writes the PLC as understood; plane corners below 14.48 degrees and the smallest angles."""
     _, _, text = attempt([pgdr, "info", model, "--write-plc", plc, *tolerance], 600, folder)
-    def number(label):
-        found = re.search(label + r"\s+([\d.,]+)", text)
-        return float(found.group(1).replace(",", "").rstrip(".")) if found else 0.0
-    return int(number("plane angles < 14.48")), number("smallest dihedral angle"), number("smallest plane angle")
+    def labelled(label):
+        return number(text, label + r"\s+([\d.,]+)", 0.0)
+    return int(labelled("plane angles < 14.48")), labelled("smallest dihedral angle"), labelled("smallest plane angle")
 
 
 def main():

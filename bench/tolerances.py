@@ -17,25 +17,23 @@ import sys
 import tempfile
 from pathlib import Path
 
-from measure import ROOT, attempt, note, table
+from measure import ROOT, attempt, note, number, table
 
 TOLERANCES = ("0", "1e-5d", "1e-4d", "1e-3d")
 
 
-def number(text, pattern):
-    found = re.search(pattern, text)
-    return float(found.group(1).replace(",", "")) if found else math.nan
-
-
 def diagonal(text):
-    box = re.search(r"bounding box\s+(.*)", text).group(1).replace("to", " ").split()
-    return math.dist([float(x) for x in box[:3]], [float(x) for x in box[3:]])
+    box = re.search(r"bounding box\s+(.*)", text)
+    if not box:
+        return math.nan
+    corners = [float(x) for x in re.findall(r"[-+.\de]+", box.group(1))]
+    return math.dist(corners[:3], corners[3:6])
 
 
 def row(pgdr, model, tolerance, limit, threads, folder):
     how = ["--tolerance", tolerance]
     _, _, info = attempt([pgdr, "info", model, *how], limit, folder)
-    facets = number(info, r"facets\s+([\d,]+)")
+    facets = number(info, r"facets\s+([\d,]+)", math.nan)
     name = [model.stem, "exact" if tolerance == "0" else tolerance, "" if math.isnan(facets) else f"{facets:,.0f}"]
     stats, mesh = folder / "stats.json", folder / "out.mesh"
     code, seconds, _ = attempt([pgdr, "mesh", model, "--quiet", "--threads", threads, "--stats", stats, "-o", mesh, *how], limit, folder)
@@ -43,7 +41,7 @@ def row(pgdr, model, tolerance, limit, threads, folder):
         return name + ["no end" if code is None else f"exit code {code}", "", "", f"{seconds:.1f}", ""]
     numbers = json.loads(stats.read_text(encoding="utf-8"))
     code, _, check = attempt([pgdr, "check", mesh, "--plc", model, *how], 5 * limit, folder)
-    distance = number(check, r"distance met is ([\d.e+-]+)") / diagonal(info)
+    distance = number(check, r"distance met is ([\d.e+-]+)", math.nan) / diagonal(info)
     return name + [f"{numbers['tetrahedra']:,}" + ("" if code == 0 else ", check fails"), f"{numbers['exempt_tetrahedra']:,}",
                    f"{numbers['min_dihedral_deg']:.2g}", f"{seconds:.1f}", "" if math.isnan(distance) else f"{distance:.1e}"]
 

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Private to src/quality: CGAL's AABB tree over plain doubles, under one name for CGAL 5 and 6.
+// Private to src/quality: CGAL's AABB tree over plain doubles.
 #ifndef PGDR_SRC_QUALITY_AABB_TREE_H
 #define PGDR_SRC_QUALITY_AABB_TREE_H
 
 #include <cstdint>
 #include <vector>
 
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/version.h>
-#if CGAL_VERSION_NR >= 1060000000
-#include <CGAL/AABB_traits_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#endif
+
+#include <pgdr/domain/detail/aabb_triangle_tree.h>
 
 namespace pgdr::quality_detail {
 
@@ -45,13 +40,8 @@ class Tagged_primitive {
   Id item_ = nullptr;
 };
 
-#if CGAL_VERSION_NR >= 1060000000
 template <class Shape>
-using Aabb_tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Plain, Tagged_primitive<Shape>>>;
-#else
-template <class Shape>
-using Aabb_tree = CGAL::AABB_tree<CGAL::AABB_traits<Plain, Tagged_primitive<Shape>>>;
-#endif
+using Aabb_tree = CGAL::AABB_tree<domain_detail::Aabb_traits<Plain, Tagged_primitive<Shape>>>;
 
 }  // namespace pgdr::quality_detail
 

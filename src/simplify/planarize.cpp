@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -284,19 +285,17 @@ class Dihedral_guard {
     std::ranges::sort(before_);
   }
 
-  /// The input facets at such segments.
-  std::vector<Index> sharpened(const Domain& now) const {
+  /// Adds the input facets at such segments.
+  void add_sharpened(const Domain& now, std::vector<Index>& input_facets) const {
     constexpr double small = 60, much = 0.5;  // degrees, as elsewhere: above, refinement has no trouble; and of what it was
-    std::vector<Index> result;
     for_each_angle(now, [&](const auto& segment, double angle) {
       if (angle >= small) return;
       const auto ends_now = ends(now, segment);
       const auto was = std::ranges::lower_bound(before_, std::pair(ends_now, 0.0));
       if (was != before_.end() && was->first == ends_now && angle >= much * was->second) return;
       for (const Index f : segment.facets)
-        result.insert(result.end(), now.facets[f].input_facets.begin(), now.facets[f].input_facets.end());
+        input_facets.insert(input_facets.end(), now.facets[f].input_facets.begin(), now.facets[f].input_facets.end());
     });
-    return result;
   }
 
  private:
@@ -319,7 +318,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
   if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done);
   Plc best = plc;
   Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
-  const Dihedral_guard guard(domain);
+  std::optional<Dihedral_guard> guard;  // made when the first vertex is about to move
   // Other triangles may lie within the tolerance of one plane once their vertices have moved.
   for (int fusing = 0; fusing < fusings; ++fusing) {
     Planarizer planarizer(domain, plc);
@@ -330,13 +329,14 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
         if (const Planarization report = planarizer.report(points); done && !report.is_none()) *done = report;
         return best;
       }
+      if (!guard) guard.emplace(domain);
       Plc result = moved(best, domain, points);
       std::vector<Index> concerned;
       try {
         Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
         const Low_corners low = low_corners(plane, plc, lowest * plane.tolerance);
         concerned = low.facets;
-        for (const Index f : guard.sharpened(plane)) concerned.push_back(f);
+        guard->add_sharpened(plane, concerned);
         for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
           concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
         if (concerned.empty()) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <pgdr/domain/input_error.h>
-#include <pgdr/domain/scale.h>
 
 namespace pgdr::simplify_detail {
 
@@ -64,8 +63,8 @@ Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_toleran
   const double diagonal = bounding_diagonal(plc);
   if (!(tolerance > 0) || !(diagonal > 0)) return plc;
   const double last = for_planarization * tolerance / diagonal;
-  const bool is_wide = last > coplanar_tolerance;
-  const Planarization_passes passes(last, coplanar_tolerance, triangulate);
+  const bool is_wide = coplanar_tolerance > 0 && last > coplanar_tolerance;  // where nothing is fused, planes are of no use
+  const Planarization_passes passes(is_wide ? last : coplanar_tolerance, coplanar_tolerance, triangulate);
   Plc result = plc;
   const auto take_away = [&] {
     Simplification now;

@@ -36,11 +36,9 @@ std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, 
     for (const auto& p : domain.vertices) points.push_back(to_vec(p));
     Narrowness n;
     for (const auto& facet : domain.facets)
-      for (const auto& t : facet.triangles) {
-        const Vec_3 a = points[t[1]] - points[t[0]], b = points[t[2]] - points[t[0]], c = b - a;
-        const double longest = std::max({squared_length(a), squared_length(b), squared_length(c)});
-        n.lowest = std::min(n.lowest, length(cross(a, b)) / std::sqrt(longest));
-      }
+      for (const auto& t : facet.triangles)
+        for (int i = 0; i < 3; ++i)
+          n.lowest = std::min(n.lowest, std::sqrt(squared_distance_to_line(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]])));
     for (const auto& corner : domain_detail::Facet_edges(domain).corners(points))
       for (double angle = Small_angles::critical_plane_angle_deg; corner.angle_deg < angle && angle > 1e-9; angle /= 2)
         n.corners += std::min(1.0, angle / std::max(corner.angle_deg, 1e-9) - 1);
@@ -50,7 +48,7 @@ std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, 
   }
 }
 
-/// Whether a wider tolerance has made matters worse: a vertex that came next to an edge, or many narrower corners.
+/// Whether a wider tolerance has made matters worse: a vertex that came next to an edge, or narrower corners altogether.
 bool is_worse(const Narrowness& now, const std::optional<Narrowness>& noise_only, double tolerance) {
   constexpr double much_lower = 0.01;  // of the tolerance, and below half of what there was
   if (!noise_only) return false;
@@ -65,28 +63,41 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   report = {};
   if (!(tolerance > 0)) return plc;
   if (exponent_for(plc) != 0) return simplify_within(normalized(plc), tolerance, coplanar_tolerance, triangulate, done);
-  const double fused = coplanar_tolerance * bounding_diagonal(plc), limit = tolerance + fused;
-  std::optional<Narrowness> noise_only;
-  if (tolerance > fused)
-    noise_only = narrowness(simplify_detail::simplify_in_stages(plc, fused, coplanar_tolerance, triangulate, report), coplanar_tolerance, triangulate);
-  // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
-  for (const double within : {tolerance > fused ? 2 * tolerance : tolerance, tolerance, tolerance / 4, std::min(tolerance, fused)}) {
-    Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report);
-    if (report.is_none()) break;
-    const auto now = narrowness(result, coplanar_tolerance, triangulate);
-    if (!now) continue;
-    if (within > fused) {
-      if (is_worse(*now, noise_only, tolerance / unit_of(plc))) continue;
-      const auto distance = surface_distance(plc, result, limit / unit_of(plc));
+  const auto simplified = [&](double within, Simplification_within& what) {
+    return simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, what);
+  };
+  const double fused = coplanar_tolerance * bounding_diagonal(plc), limit = tolerance + fused, unit = unit_of(plc);
+  const bool is_wide = fused > 0 && tolerance > fused;
+  Simplification_within noise;
+  Plc noise_only = simplified(is_wide ? fused : tolerance, noise);
+  // What moves vertices looks itself whether the result is valid; what takes them away does not know what is fused.
+  std::optional<Narrowness> before;
+  if (is_wide || !noise.simplification.is_none()) before = narrowness(noise_only, coplanar_tolerance, triangulate);
+  if (is_wide) {
+    // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
+    for (const double within : {2 * tolerance, tolerance, tolerance / 4}) {
+      if (within <= fused) break;
+      Plc result = simplified(within, report);
+      if (report.is_none()) break;
+      const auto now = narrowness(result, coplanar_tolerance, triangulate);
+      if (!now || is_worse(*now, before, tolerance / unit)) continue;
+      const auto distance = surface_distance(plc, result, limit / unit);
       if (!distance || !distance->is_within) continue;
       report.limit = limit;
-      report.distance = *distance;
-      report.distance.seen *= unit_of(plc);
+      report.distance = {unit * distance->seen, true, unit * distance->at};
+      return result;
     }
-    return result;
+  }
+  if (before || noise.simplification.is_none()) {
+    report = noise;
+    return noise_only;
   }
   report = {};
-  return plc;
+  try {
+    return planarize(plc, coplanar_tolerance, triangulate, &report.planarization);
+  } catch (const Input_error&) {
+    return plc;  // what is wrong with it is said when it is understood
+  }
 }
 
 }  // namespace pgdr

@@ -7,19 +7,10 @@
 #include <cstddef>
 #include <vector>
 
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/version.h>
-#if CGAL_VERSION_MAJOR >= 6
-#include <CGAL/AABB_traits_3.h>
-#include <CGAL/AABB_triangle_primitive_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#endif
 
+#include <pgdr/domain/detail/aabb_triangle_tree.h>
 #include <pgdr/domain/make_domain_3.h>
-#include <pgdr/domain/scale.h>
 #include <pgdr/parallel/parallel_reduce.h>
 
 namespace pgdr {
@@ -30,48 +21,33 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Triangle = Kernel::Triangle_3;
 using Triangles = std::vector<Triangle>;
 using Point = Kernel::Point_3;
-#if CGAL_VERSION_MAJOR >= 6
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>>;
-#else
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
-#endif
 
 Point point(const Plc& plc, Index v) {
   const auto& p = plc.vertices[v];
   return {p.x(), p.y(), p.z()};
 }
 
-/// The triangles of a facet that is none itself.
-bool add_triangulated(const Plc& plc, std::size_t f, Triangles& triangles) {
-  Plc alone;
-  alone.vertices = plc.vertices;
-  alone.facets = {plc.facets[f]};
-  try {
-    const auto domain = make_domain_3(alone, 1e-6, true);
-    for (const auto& facet : domain.facets)
-      for (const auto& t : facet.triangles) {
-        const auto corner = [&](int i) { return point(plc, domain.input_vertex[t[i]]); };
-        triangles.emplace_back(corner(0), corner(1), corner(2));
-      }
-    return true;
-  } catch (const Input_error&) {
-    return false;
-  }
-}
-
 std::optional<Triangles> triangles_of(const Plc& plc) {
   Triangles triangles;
-  for (std::size_t f = 0; f < plc.facets.size(); ++f) {
-    const auto& polygons = plc.facets[f].polygons;
-    if (polygons.size() == 1 && polygons[0].size() == 3)
-      triangles.emplace_back(point(plc, polygons[0][0]), point(plc, polygons[0][1]), point(plc, polygons[0][2]));
-    else if (!add_triangulated(plc, f, triangles))
-      return std::nullopt;
+  const auto add = [&](Index a, Index b, Index c) { triangles.emplace_back(point(plc, a), point(plc, b), point(plc, c)); };
+  Plc polygons;  // the facets that have to be cut into triangles; markers keep them from being fused
+  for (const auto& f : plc.facets)
+    if (f.polygons.size() == 1 && f.polygons[0].size() == 3)
+      add(f.polygons[0][0], f.polygons[0][1], f.polygons[0][2]);
+    else
+      polygons.facets.push_back({f.polygons, f.holes, static_cast<int>(polygons.facets.size())});
+  if (polygons.facets.empty()) return triangles;
+  polygons.vertices = plc.vertices;
+  try {
+    const auto domain = make_domain_3(polygons, 1e-6, true);
+    const auto input = [&](Index v) { return domain.input_vertex[v]; };
+    for (const auto& facet : domain.facets)
+      for (const auto& t : facet.triangles) add(input(t[0]), input(t[1]), input(t[2]));
+  } catch (const Input_error&) {
+    return std::nullopt;
   }
   return triangles;
 }
-
-double squared_distance_to(const Point& p, const Triangle& t) { return CGAL::squared_distance(p, t); }
 
 /// Of points of one surface from the other.
 class One_way {
@@ -138,11 +114,11 @@ class One_way {
   /// Whether all corners are within the limit of what is nearest to one of them.
   bool is_near_one(const std::array<Corner, 3>& part) const {
     return std::ranges::any_of(part, [&](const Corner& c) {
-      return std::ranges::all_of(part, [&](const Corner& e) { return squared_distance_to(e.at, *c.nearest) <= squared_limit_; });
+      return std::ranges::all_of(part, [&](const Corner& e) { return CGAL::squared_distance(e.at, *c.nearest) <= squared_limit_; });
     });
   }
 
-  Tree tree_;
+  domain_detail::Aabb_triangle_tree<Kernel> tree_;
   double squared_limit_;
 };
 

@@ -43,6 +43,18 @@ struct Divided {
   Seeded_random random;
 };
 
+/// Walks from a vertex to p; where it arrives, the tetrahedron has to be in conflict with p and have a vertex of the kind.
+template <class Reach>
+bool arrives(const Divided& d, const Reach& reach, Vertex_handle from, const Point& p, const auto& is_of_kind) {
+  const Cell_handle c = pgdr::walk_to_conflict(d.tr, reach, from, p);
+  if (c == Cell_handle()) return false;
+  CHECK(d.tr.in_conflict(c, p));
+  bool has_one = false;
+  for (int i = 0; i < 4; ++i) has_one = has_one || is_of_kind(c->vertex(i));
+  CHECK(has_one);
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("No tetrahedron has facets of two territories, not even an infinite one", "[mesh]") {
@@ -130,16 +142,7 @@ TEST_CASE("A walk finds a tetrahedron in conflict, and does not leave its territ
     REQUIRE(c != Cell_handle());
     CHECK(d.tr.in_conflict(c, p));
     const Territory own{vertices[k]->territory()};
-    const Cell_handle e = pgdr::walk_to_conflict(d.tr, own, vertices[k], p);
-    if (e == Cell_handle()) {
-      ++left;
-      continue;
-    }
-    ++found;
-    CHECK(d.tr.in_conflict(e, p));
-    bool has_own = false;
-    for (int i = 0; i < 4; ++i) has_own = has_own || own.leads_on(e->vertex(i));
-    CHECK(has_own);
+    ++(arrives(d, own, vertices[k], p, [&](Vertex_handle v) { return own.leads_on(v); }) ? found : left);
   }
   CHECK(found > 50);
   CHECK(left > 50);
@@ -152,16 +155,7 @@ TEST_CASE("A walk in the zone of a leaf steps only to tetrahedra with a vertex n
   for (auto v = d.tr.finite_vertices_begin(); v != d.tr.finite_vertices_end(); ++v) {
     if (!zone.is_near(v)) continue;
     const Point q = d.inside(), p = left > found ? Point(0.3 + 0.3 * q.x(), 0.3 + 0.3 * q.y(), 0.3 + 0.3 * q.z()) : q;
-    const Cell_handle c = pgdr::walk_to_conflict(d.tr, zone, Vertex_handle(v), p);
-    if (c == Cell_handle()) {
-      ++left;
-      continue;
-    }
-    ++found;
-    CHECK(d.tr.in_conflict(c, p));
-    bool has_near = false;
-    for (int i = 0; i < 4; ++i) has_near = has_near || zone.is_near(c->vertex(i));
-    CHECK(has_near);
+    ++(arrives(d, zone, Vertex_handle(v), p, [&](Vertex_handle w) { return zone.is_near(w); }) ? found : left);
   }
   CHECK(found > 20);
   CHECK(left > 20);

@@ -59,6 +59,8 @@ TEST_CASE("No wider than what is fused, only that is made plane", "[simplify]") 
   const Plc simpler = simplify_within(bar, tolerance, 1e-6);
   CHECK(simpler.vertices == planarize(simplify(bar, tolerance), 1e-6).vertices);
   CHECK(simpler.vertices != bar.vertices);
+  // Where nothing is fused there are no facets to be made plane, and no stages down to nothing.
+  CHECK(simplify_within(bar, tolerance, 0).vertices == simplify(bar, tolerance).vertices);
 }
 
 TEST_CASE("Making facets plane makes no small dihedral angles", "[simplify][models]") {

@@ -37,21 +37,19 @@ class Cavity_search_3 {
     return cavity_.is_foreign() ? Search_result::foreign : Search_result::nothing;
   }
 
-  /// The leaf grown by ell*/4, where it is not everything; see `Zone_reach_3`.
-  void set_near(const Region_3& near) {
-    near_ = near;
-    is_leaf_ = near != Region_3{};
-  }
+  /// What the task of a leaf may look at; everything to begin with.
+  const Zone_reach_3<Tr>& zone() const { return zone_; }
+  /// \param near the leaf grown by ell*/4
+  void set_zone(const Region_3& near) { zone_ = {near, tr_.infinite_vertex()}; }
 
   /// From an own vertex that is not far from p.
   Search_result from_vertex(const Point& p, Vertex_handle v) {
-    // CGAL's walk is the faster one, but nobody can tell it where to stop.
-    if (territory().is_everything() && !is_leaf_) return from_cell(p, tr_.locate(p, v->cell()));
-    if (is_leaf_) {
-      const Zone_reach_3<Tr> zone{near_, tr_.infinite_vertex()};
-      const Cell_handle c = zone.is_near(v) ? walk_to_conflict(tr_, zone, v, p) : Cell_handle();
+    if (!zone_.is_everything()) {
+      const Cell_handle c = zone_.is_near(v) ? walk_to_conflict(tr_, zone_, v, p) : Cell_handle();
       return c == Cell_handle() ? Search_result::nothing : from_cell(p, c);
     }
+    // CGAL's walk is the faster one, but nobody can tell it where to stop.
+    if (territory().is_everything()) return from_cell(p, tr_.locate(p, v->cell()));
     const Cell_handle c = walk_to_conflict(tr_, territory(), v, p);
     return c == Cell_handle() ? Search_result::foreign : from_cell(p, c);
   }
@@ -84,8 +82,7 @@ class Cavity_search_3 {
   const Complex& complex_;
   Cavity_3<Tr>& cavity_;
   Vertex_star_3<Tr> star_;
-  Region_3 near_;
-  bool is_leaf_ = false;
+  Zone_reach_3<Tr> zone_;
 };
 
 }  // namespace pgdr

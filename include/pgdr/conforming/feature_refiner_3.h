@@ -98,10 +98,10 @@ class Feature_refiner_3 {
   /// Where points may be inserted, and where the vertices of a missing piece must be: all of space to begin with.
   void set_region(const Region_3& region, const Region_3& near) {
     region_ = region;
-    near_ = near;
-    search_.set_near(near);
+    search_.set_zone(near);
     last_way_ = {};
   }
+  const Zone_reach_3<Tr>& zone() const { return search_.zone(); }
   /// What may be changed, beside other tasks: everything to begin with. Requests must be for own pieces. A split that
   /// would change more, or look farther, is `elsewhere`.
   void set_territory(const Territory_3<Tr>& territory) { cavity_.set_territory(territory); }
@@ -261,7 +261,7 @@ class Feature_refiner_3 {
     using Client = typename Errand::Client;
     Errand& e = *errand;
     if (e.is_image()) {
-      if (!near_.contains_closed(position(e.by))) return false;
+      if (!zone().is_near(e.by)) return false;
       images_.add({e.by, e.facet, e.home, e.reason != Split_reason::missing});
       put_images();
       return false;
@@ -391,7 +391,7 @@ class Feature_refiner_3 {
   }
 
   bool is_near(const auto& vertices) const {
-    return std::ranges::all_of(vertices, [this](Vertex_handle v) { return near_.contains_closed(position(v)); });
+    return std::ranges::all_of(vertices, [this](Vertex_handle v) { return zone().is_near(v); });
   }
 
   /// Of a missing piece nothing is known but its vertices; where these are far away, nobody else may be at work.
@@ -581,7 +581,6 @@ class Feature_refiner_3 {
   Facet_images_3<Tr> images_;
   Pool pool_;
   Region_3 region_;
-  Region_3 near_;
   Feature_queues queues_;
   Feature_queues stranded_;
   std::vector<std::pair<Vec_3, std::unique_ptr<Errand>>> outgoing_;

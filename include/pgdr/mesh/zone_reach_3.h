@@ -16,6 +16,8 @@ struct Zone_reach_3 {
   Region_3 near;  ///< the leaf grown by ell*/4; all of space where nobody else is at work
   Vertex_handle infinite;
 
+  bool is_everything() const { return near == Region_3{}; }
+
   bool is_near(Vertex_handle v) const { return v != infinite && near.contains_closed(position(v)); }
 
   /// Whether one may go from c to its neighbor i: they have a near vertex in common.

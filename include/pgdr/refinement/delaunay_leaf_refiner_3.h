@@ -18,7 +18,6 @@
 #include <pgdr/conforming/subdomains_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/mesh/triangle_ball.h>
-#include <pgdr/mesh/zone_reach_3.h>
 #include <pgdr/refinement/box_scan_3.h>
 #include <pgdr/refinement/divide_worklist_3.h>
 #include <pgdr/refinement/enclosing_ball.h>
@@ -887,7 +886,6 @@ class Delaunay_leaf_refiner_3 {
   /// Gives a flat tetrahedron to the outside if that is what lies beyond its facet; else a point on the facet has to
   /// remove it.
   bool is_handed_over(Worker& w, Cell_handle c, Worklist& list) const {
-    const Zone_reach_3<Tr> zone{w.task_.near, tr_.infinite_vertex()};
     std::vector<Cell_handle> flat{c};
     while (!flat.empty()) {
       const Cell_handle d = flat.back();
@@ -903,7 +901,7 @@ class Delaunay_leaf_refiner_3 {
         const Cell_handle n = d->neighbor(i);
         if (d->subfacet(i) == Complex::none || n->subdomain() == 0) continue;
         // What changes with it are its neighbors, too.
-        if (w.features_.cavity().territory().owns(n) && zone.leads_on(n))
+        if (w.features_.cavity().territory().owns(n) && w.features_.zone().leads_on(n))
           flat.push_back(n);
         else
           hand_on_fresh({n, n->generation(), 0}, list);

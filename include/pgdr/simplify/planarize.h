@@ -27,7 +27,7 @@ struct Planarization {
 /// The move is the smallest one, in the sense of least squares, that makes the facets plane: Newton's method on the vertices and the planes
 /// together. A polyhedron has enough freedom for that in general (more than its number of edges: Euler's formula). Facets on axis-aligned
 /// planes stay there. A facet whose vertices would have to leave the planes they are on by more than the tolerance stays as it is, and so
-/// does one that would intersect another.
+/// does one that would intersect another, or fall onto it: a dihedral angle below 60 degrees that would become less than half of what it was.
 /// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the PLC. The tolerance is the limit, too; along their facets
 ///   vertices may move up to 16 times as far, which is what facets at small angles to each other need.
 /// \return `plc` itself where nothing was to be done. Throws what `make_domain_3` throws

@@ -2,7 +2,6 @@
 #ifndef PGDR_SIMPLIFY_SURFACE_DISTANCE_H
 #define PGDR_SIMPLIFY_SURFACE_DISTANCE_H
 
-#include <limits>
 #include <optional>
 
 #include <pgdr/domain/default_kernel.h>

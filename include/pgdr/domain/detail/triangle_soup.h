@@ -11,17 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include <CGAL/AABB_tree.h>
-#include <CGAL/version.h>
-#if CGAL_VERSION_MAJOR >= 6
-#include <CGAL/AABB_traits_3.h>
-#include <CGAL/AABB_triangle_primitive_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#endif
 #include <CGAL/Exact_rational.h>
 
+#include <pgdr/domain/detail/aabb_triangle_tree.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
 
@@ -64,19 +56,8 @@ struct Triangle_soup {
 
 /// Where a ray passes through the triangles of a soup, decided exactly.
 class Ray_caster {
-#if CGAL_VERSION_MAJOR >= 6
-  template <class It>
-  using Primitive = CGAL::AABB_triangle_primitive_3<Work_kernel, It>;
-  template <class P>
-  using Traits = CGAL::AABB_traits_3<Work_kernel, P>;
-#else
-  template <class It>
-  using Primitive = CGAL::AABB_triangle_primitive<Work_kernel, It>;
-  template <class P>
-  using Traits = CGAL::AABB_traits<Work_kernel, P>;
-#endif
   using Triangles = std::vector<Work_kernel::Triangle_3>;
-  using Tree = CGAL::AABB_tree<Traits<Primitive<Triangles::const_iterator>>>;
+  using Tree = Aabb_triangle_tree<Work_kernel>;
 
  public:
   struct Hit {
