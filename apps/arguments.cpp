@@ -85,6 +85,12 @@ double parse_ratio_bound(const std::string& option, const std::string& text) {
   return value;
 }
 
+double parse_dihedral_angle(const std::string& option, const std::string& text) {
+  const double value = parse_number(option, text);
+  if (!(value >= 0 && value <= 60)) throw Usage_error(option + " must be an angle from 0 to 60 degrees, not " + text);
+  return value;
+}
+
 std::size_t parse_count(const std::string& option, const std::string& text) {
   std::size_t value = 0;
   if (!read_all(text, value) || value == 0)

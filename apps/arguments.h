@@ -43,6 +43,9 @@ Length parse_length(const std::string& option, const std::string& text);
 /// A bound that the mesher is asked for: `parse_number`, at least 2 and finite.
 double parse_ratio_bound(const std::string& option, const std::string& text);
 
+/// A dihedral angle that tetrahedra are to have at least, in degrees: from 0 to 60. (The regular one has 70.5.)
+double parse_dihedral_angle(const std::string& option, const std::string& text);
+
 /// A whole number, at least 1.
 std::size_t parse_count(const std::string& option, const std::string& text);
 

@@ -47,6 +47,7 @@ struct Mesh_arguments {
   std::vector<std::string> refine_boxes;
   std::string radius_edge_ratio;
   std::string placement;
+  std::string min_dihedral;
   std::string min_edge_length;
   std::string max_vertices;
   std::string max_memory;
@@ -91,6 +92,10 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
                   "Where new points go: circumcenter (default), type1 or type2 (towards short edges), best-dihedral "
                   "(three times slower, nearly no slivers)")
       ->type_name("POLICY");
+  parser
+      .add_option("--min-dihedral", arguments.min_dihedral,
+                  "Move vertices, and add a few, until no dihedral angle is below this one, in degrees, as far as that gets (default 0: do not)")
+      ->type_name("A");
   arguments.domain.add_to(parser);
   add_problems_option(parser, arguments.problems);
   parser.add_flag("--ignore-region-sizes", arguments.ignore_region_sizes,
@@ -159,6 +164,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
   if (!arguments.radius_edge_ratio.empty())
     p.radius_edge_ratio = parse_ratio_bound("--radius-edge-ratio", arguments.radius_edge_ratio);
   if (!arguments.placement.empty()) p.placement = parse_placement(arguments.placement);
+  if (!arguments.min_dihedral.empty()) p.min_dihedral = parse_dihedral_angle("--min-dihedral", arguments.min_dihedral);
   p.coplanar_tolerance = arguments.domain.fusing_tolerance();
   p.triangulate_facets = arguments.domain.accepts_bent_polygons();
   p.ignore_region_sizes = arguments.ignore_region_sizes;
@@ -230,6 +236,7 @@ int run_mesh(const Mesh_arguments& arguments) {
     run.steiner_points = statistics.steiner_points;
     run.unrecovered = statistics.unrecovered;
     run.volumes_left_out = statistics.volumes_left_out;
+    run.slivers = statistics.slivers;
     run.schedule = statistics.schedule;
     run.serial_share = serial_share(statistics);
     timer.end_phases(statistics.seconds);

@@ -34,6 +34,13 @@ Json schedule_json(const Schedule_statistics& schedule) {
           {"epochs", epochs}};
 }
 
+Json small_angles_json(const Mesh_quality& quality) {
+  Json below = Json::object();
+  for (std::size_t i = 0; i < quality.tetrahedra_below.size(); ++i)
+    below[std::to_string(static_cast<int>(Mesh_quality::small_angles_deg[i]))] = quality.tetrahedra_below[i];
+  return below;
+}
+
 }  // namespace
 
 std::string stats_json(const Run_summary& run) {
@@ -94,6 +101,9 @@ std::string stats_json(const Run_summary& run) {
                      {"mean_radius_edge_ratio", quality.mean_radius_edge_ratio},
                      {"max_circumradius", quality.max_circumradius},
                      {"min_dihedral_deg", quality.min_dihedral_deg},
+                     {"tetrahedra_below_deg", small_angles_json(quality)},
+                     {"slivers",
+                      {{"found", run.slivers.found}, {"left", run.slivers.left}, {"moved", run.slivers.moved}, {"added", run.slivers.added}}},
                      {"exempt_tetrahedra", run.exempt_tetrahedra},
                      {"exempt_angles", exempt_angles},
                      {"unrefined_tetrahedra", run.unrefined_tetrahedra},

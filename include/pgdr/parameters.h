@@ -33,6 +33,10 @@ struct Parameters {
   /// Circumcenters give the fewest and most even tetrahedra for a given size.
   Point_placement placement = Point_placement::circumcenter;
 
+  /// After the refinement, vertices are moved and a few added until no dihedral angle is below this one, in degrees, or as far as that gets;
+  /// 0: they stay where they are.
+  double min_dihedral = 0;
+
   /// Facets whose vertices lie this close to one plane, relative to the bounding box's diagonal, are fused.
   /// 1e-6 undoes single-precision files and is far below any feature that a simulation resolves.
   double coplanar_tolerance = 1e-6;

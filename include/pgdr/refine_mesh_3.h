@@ -15,6 +15,7 @@
 #include <pgdr/conforming/subdomains_3.h>
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/domain/volumes_3.h>
 #include <pgdr/parallel/parallel_for.h>
@@ -32,6 +33,7 @@
 #include <pgdr/sizing/box_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
+#include <pgdr/slivers/remove_slivers_3.h>
 
 namespace pgdr {
 
@@ -82,6 +84,10 @@ class Mesher_3 {
     if (reason_ != Stop_reason::finished) note_unrefined(criteria);
     mesh_.triangulation().restore_infinite_cell(on_hull);
     lap("refinement");
+    if (reason_ == Stop_reason::finished && parameters_.min_dihedral > 0) {
+      remove_slivers(criteria);
+      lap("slivers");
+    }
     if (parameters_.verify && !mesh_.triangulation().is_valid())
       throw std::logic_error("the refined triangulation is not a valid Delaunay triangulation");
     if (parameters_.verify) lap("verification");
@@ -101,6 +107,14 @@ class Mesher_3 {
       if (!scheduler.run()) reason_ = watch_.reached() == Limit_watch::Limit::none ? Stop_reason::vertex_budget : reason_of(watch_.reached());
       if (scheduler.limited() > 0) limited_ = count_limited();
       mesh_.statistics().schedule = std::move(scheduler.statistics());
+    });
+  }
+
+  void remove_slivers(const Criteria& criteria) {
+    with_threads(parameters_.threads, [&] {
+      mesh_.statistics().slivers = Sliver_removal_3<Tr, Criteria>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_,
+                                                                  cosine_of_degrees(parameters_.min_dihedral), parameters_.cancel)
+                                       .run();
     });
   }
 

@@ -114,6 +114,7 @@ class Quality_sum {
     q_.max_dihedral_deg = std::max(q_.max_dihedral_deg, o.q_.max_dihedral_deg);
     for (std::size_t i = 0; i < q_.dihedral_histogram.size(); ++i)
       q_.dihedral_histogram[i] += o.q_.dihedral_histogram[i];
+    for (std::size_t i = 0; i < q_.tetrahedra_below.size(); ++i) q_.tetrahedra_below[i] += o.q_.tetrahedra_below[i];
     for (std::size_t i = 0; i < q_.ratio_histogram.size(); ++i) q_.ratio_histogram[i] += o.q_.ratio_histogram[i];
     ratios_ += o.ratios_.value();
     for (const auto& [region, part] : o.regions_) {
@@ -168,14 +169,22 @@ class Quality_sum {
       return;
     }
     for (const int bin : found) ++q_.dihedral_histogram[std::size_t(bin)];
+    // Of the bins' ten degrees the small angles are parts.
+    if (*std::ranges::min_element(found) <= last_small_bin) count_small(smallest_dihedral_angle_deg(a, b, c, d));
   }
 
   void add_exact_angles(const P& a, const P& b, const P& c, const P& d) {
-    for (const double angle : dihedral_angles_deg(a, b, c, d)) {
+    const auto angles = dihedral_angles_deg(a, b, c, d);
+    count_small(*std::ranges::min_element(angles));
+    for (const double angle : angles) {
       q_.min_dihedral_deg = std::min(q_.min_dihedral_deg, angle);
       q_.max_dihedral_deg = std::max(q_.max_dihedral_deg, angle);
       count(q_.dihedral_histogram, angle, Mesh_quality::dihedral_bin_deg);
     }
+  }
+
+  void count_small(double smallest) {
+    for (std::size_t i = 0; i < q_.tetrahedra_below.size(); ++i) q_.tetrahedra_below[i] += smallest < Mesh_quality::small_angles_deg[i];
   }
 
   /// Neighbours in the list are mostly of one region.
@@ -183,6 +192,8 @@ class Quality_sum {
     if (last_ == regions_.end() || last_->first != region) last_ = regions_.try_emplace(region).first;
     return last_->second;
   }
+
+  static constexpr int last_small_bin = static_cast<int>(Mesh_quality::small_angles_deg.back() / Mesh_quality::dihedral_bin_deg) - 1;
 
   Mesh_quality q_;
   double max_squared_radius_ = 0, max_squared_ratio_ = 0;

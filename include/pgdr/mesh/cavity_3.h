@@ -119,13 +119,17 @@ class Cavity_3 {
   /// Replaces C(p) by B(p). Each new tetrahedron inherits subdomain, subfacet and subsegments from the cavity
   /// cell behind its boundary triangle; what touches p itself is unmarked.
   Vertex_handle commit(const Point& p) {
-    copy_boundary();
     const Vertex_handle v = tr_->tds().create_vertex();
+    commit(p, v);
+    return v;
+  }
+  /// The same with a vertex that has no tetrahedra at present (`Vertex_hole_3`).
+  void commit(const Point& p, Vertex_handle v) {
+    copy_boundary();
     v->set_point(p);
     v->set_territory(territory_.number);
     fill_star(v);
     glue_star();
-    return v;
   }
 
   /// B(p) after `commit`, in the order of the boundary triangles.

@@ -11,6 +11,7 @@
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mesh/mesh_cell_base_3.h>
 #include <pgdr/mesh/mesh_vertex_base_3.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
 
 namespace pgdr {
 
@@ -44,9 +45,13 @@ class Mesh_triangulation_3
     const Vertex_handle inf = this->infinite_vertex();
     const Vertex_handle v0 = c->vertex(0), v1 = c->vertex(1), v2 = c->vertex(2), v3 = c->vertex(3);
     if (v0 != inf && v1 != inf && v2 != inf && v3 != inf)
-      return this->side_of_oriented_sphere(v0->point(), v1->point(), v2->point(), v3->point(), p, true) ==
-             CGAL::ON_POSITIVE_SIDE;
+      return in_ball(v0->point(), v1->point(), v2->point(), v3->point(), p);
     return this->side_of_sphere(c, p, true) == CGAL::ON_BOUNDED_SIDE;
+  }
+
+  /// Whether the open circumball of a positive tetrahedron holds p, ties broken the same way. Exact.
+  bool in_ball(const Point& p0, const Point& p1, const Point& p2, const Point& p3, const Point& p) const {
+    return this->side_of_oriented_sphere(p0, p1, p2, p3, p, true) == CGAL::ON_POSITIVE_SIDE;
   }
 
   /// Makes the infinite vertex's cell valid again. `Cavity_3` leaves it alone, since it is the one location that
@@ -66,6 +71,11 @@ class Mesh_triangulation_3
 template <class Vertex_handle>
 Vec_3 position(Vertex_handle v) {
   return to_vec(v->point());
+}
+
+template <class Cell_handle>
+Tetrahedron_points tetrahedron_points(Cell_handle c) {
+  return {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))};
 }
 
 }  // namespace pgdr

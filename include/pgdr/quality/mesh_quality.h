@@ -29,6 +29,10 @@ struct Mesh_quality {
   std::map<std::int32_t, double> region_volumes;  ///< by region id
   std::map<std::int32_t, std::size_t> region_tetrahedra;
 
+  /// How many tetrahedra have a dihedral angle below each of `small_angles_deg`.
+  std::array<std::uint64_t, 5> tetrahedra_below{};
+  static constexpr std::array<double, 5> small_angles_deg{1, 5, 10, 14, 20};
+
   /// All six dihedral angles of every tetrahedron: bin i counts [10 i, 10 (i + 1)) degrees, the last one 180
   /// too.
   std::array<std::uint64_t, 18> dihedral_histogram{};

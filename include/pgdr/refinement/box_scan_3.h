@@ -12,11 +12,6 @@
 
 namespace pgdr {
 
-template <class Cell_handle>
-Tetrahedron_points tetrahedron_points(Cell_handle c) {
-  return {position(c->vertex(0)), position(c->vertex(1)), position(c->vertex(2)), position(c->vertex(3))};
-}
-
 /// Whether the bounding box of a tetrahedron meets a box; told by its ball where that is small.
 template <class Cell_handle>
 bool may_meet(Cell_handle c, const Region_3& box) {

@@ -23,6 +23,14 @@ enum class Stop_reason {
   cancelled         ///< `Parameters::cancel`
 };
 
+/// What became of tetrahedra with a small dihedral angle, `Parameters::min_dihedral`.
+struct Sliver_statistics {
+  std::size_t found = 0;  ///< tetrahedra below the wanted angle
+  std::size_t moved = 0;  ///< vertices, as often as they were
+  std::size_t added = 0;  ///< vertices
+  std::size_t left = 0;   ///< tetrahedra below the wanted angle
+};
+
 /// What one run of `refine_mesh_3` did.
 struct Run_statistics {
   Stop_reason stop = Stop_reason::finished;
@@ -31,6 +39,7 @@ struct Run_statistics {
   std::size_t steiner_points = 0;      ///< inserted, those outside of the domain included
   std::size_t unrecovered = 0;         ///< subsegments and subfacets that the mesh lacks (0 unless stopped)
   std::size_t volumes_left_out = 0;    ///< with gaps in their boundary when conforming was stopped; they have no tetrahedra
+  Sliver_statistics slivers;
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
   Schedule_statistics schedule;
 };

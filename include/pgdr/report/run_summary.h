@@ -38,6 +38,7 @@ struct Run_summary {
   std::size_t unrecovered = 0;
   std::size_t volumes_left_out = 0;
   unsigned threads = 1;
+  Sliver_statistics slivers;
   Schedule_statistics schedule;
   double serial_share = 0;  ///< `serial_share(Run_statistics)`
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
@@ -132,7 +133,14 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
   line("radius-edge ratio", significant(quality.max_radius_edge_ratio),
        "largest, " + significant(quality.mean_radius_edge_ratio) + " on average");
   line("circumradius", significant(quality.max_circumradius), "largest");
-  line("dihedral angle", significant(quality.min_dihedral_deg), "degrees, smallest");
+  std::string below;
+  for (std::size_t i = 0; i < quality.tetrahedra_below.size(); ++i)
+    below += (i == 0 ? "" : ", ") + with_separators(quality.tetrahedra_below[i]) + " < " + significant(Mesh_quality::small_angles_deg[i], 2);
+  line("dihedral angle", significant(quality.min_dihedral_deg), "degrees, smallest; tetrahedra with one " + below);
+  if (run.slivers.found > 0)
+    line("slivers", with_separators(run.slivers.left),
+         "left of " + with_separators(run.slivers.found) + "; " + counted(run.slivers.moved, "vertex was", "vertices were") + " moved, " +
+             with_separators(run.slivers.added) + " added");
   if (run.exempt_tetrahedra > 0)
     line("exempt", with_separators(run.exempt_tetrahedra),
          "tetrahedra over the bound, at small angles of the input");

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SLIVERS_SLIVER_INSERTER_3_H
+#define PGDR_SLIVERS_SLIVER_INSERTER_3_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <pgdr/conforming/cavity_features_3.h>
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/mesh/cavity_3.h>
+#include <pgdr/slivers/tetrahedron_judge.h>
+
+namespace pgdr {
+
+/// Adds a vertex in the ball of a sliver where that makes no tetrahedron with as small an angle.
+///
+/// The vertex may encroach what it likes, as long as no piece of the input is deleted: quality is not driven by it any more.
+template <class Tr, class Criteria>
+class Sliver_inserter_3 {
+ public:
+  using Complex = Constraint_complex_3<Tr>;
+  using Cell_handle = typename Tr::Cell_handle;
+  using Vertex_handle = typename Tr::Vertex_handle;
+  using Point = typename Tr::Point;
+
+  Sliver_inserter_3(Tr& tr, Complex& complex, const Tetrahedron_judge<Criteria>& judge, const Territory_3<Tr>& territory)
+      : complex_(complex), judge_(judge), cavity_(tr) {
+    cavity_.set_territory(territory);
+  }
+
+  /// True if a vertex was added. `now`: the largest cosine of a dihedral angle of the tetrahedron.
+  bool insert(Cell_handle c, double now, double wanted) {
+    const Tetrahedron_ball ball = tetrahedron_ball(tetrahedron_points(c));
+    const double radius = std::sqrt(ball.squared_radius);
+    double best = now;
+    Vec_3 place;
+    const auto attempt = [&](const Vec_3& at) {
+      const double cosine = worst_at(c, at, best);
+      if (cosine >= best) return false;
+      best = cosine;
+      place = at;
+      return cosine <= wanted;
+    };
+    bool is_found = attempt(ball.center);
+    constexpr double steps[] = {0.3, 0.5, 0.7, 0.15, 0.85};
+    for (const double step : steps)
+      for (int k = 0; k < 27 && !is_found; ++k) {
+        const Vec_3 d{static_cast<double>(k % 3 - 1), static_cast<double>(k / 3 % 3 - 1), static_cast<double>(k / 9 - 1)};
+        if (k != 13) is_found = attempt(ball.center + (step * radius / length(d)) * d);
+      }
+    if (best >= now) return false;
+    const Point p(place.x, place.y, place.z);
+    if (!cavity_.find(p, c)) return false;
+    const double nearest = std::sqrt(cavity_.squared_insertion_radius(place));
+    const Vertex_handle v = cavity_.commit(p);
+    v->set_feature(3, Tr::Vertex::none);
+    v->set_insertion_radius(nearest);
+    return true;
+  }
+
+  /// The tetrahedra made by the last insertion.
+  const std::vector<Cell_handle>& star() const { return cavity_.star(); }
+
+ private:
+  /// As `Vertex_mover_3::worst_at`; besides, no new edge may be shorter than half of the shortest one here.
+  double worst_at(Cell_handle c, const Vec_3& at, double limit) {
+    constexpr double refused = Tetrahedron_judge<Criteria>::refused;
+    const std::int32_t subdomain = c->subdomain();
+    const Point p(at.x, at.y, at.z);
+    if (!cavity_.find(p, c, [subdomain](Cell_handle d) { return d->subdomain() == subdomain; })) return refused;
+    double worst = is_spaced(at) ? -1 : refused;
+    for (std::size_t k = 0; k < cavity_.boundary().size() && worst < limit; ++k) {
+      const auto& [d, i] = cavity_.boundary()[k];
+      Tetrahedron_points corners = tetrahedron_points(d);
+      corners[static_cast<std::size_t>(i)] = at;
+      worst = std::max(worst, judge_(corners, subdomain, limit));
+    }
+    if (worst < limit) {
+      features_.gather(complex_, cavity_);
+      const auto is_deleted = [](const auto& f) { return f.deleted; };
+      if (std::ranges::any_of(features_.subsegments(), is_deleted) || std::ranges::any_of(features_.subfacets(), is_deleted)) worst = refused;
+    }
+    cavity_.abandon();
+    return worst < limit ? worst : refused;
+  }
+
+  bool is_spaced(const Vec_3& at) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Cell_handle d : cavity_.cells()) shortest = std::min(shortest, squared_shortest_edge(tetrahedron_points(d)));
+    return 4 * cavity_.squared_insertion_radius(at) >= shortest;
+  }
+
+  Complex& complex_;
+  Tetrahedron_judge<Criteria> judge_;
+  Cavity_3<Tr> cavity_;
+  Cavity_features_3<Tr> features_;
+};
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SLIVERS_SLIVER_REMOVER_3_H
+#define PGDR_SLIVERS_SLIVER_REMOVER_3_H
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <unordered_set>
+#include <vector>
+
+#include <pgdr/slivers/sliver_inserter_3.h>
+#include <pgdr/slivers/vertex_mover_3.h>
+
+namespace pgdr {
+
+/// A tetrahedron with a small dihedral angle.
+template <class Tr>
+struct Sliver_3 {
+  typename Tr::Cell_handle cell;
+  std::uint32_t generation = 0;
+  double cosine = 1;  ///< of its smallest dihedral angle
+
+  static Sliver_3 of(typename Tr::Cell_handle c, double cosine) { return {c, c->generation(), cosine}; }
+  bool is_live() const { return cell->generation() == generation; }
+
+  /// The flattest first; equal ones by their places, since cells come in an order that timing decides.
+  friend bool operator<(const Sliver_3& a, const Sliver_3& b) {
+    return a.cosine != b.cosine ? a.cosine > b.cosine : a.key() < b.key();
+  }
+
+ private:
+  std::array<std::array<double, 3>, 4> key() const {
+    std::array<std::array<double, 3>, 4> k;
+    for (int i = 0; i < 4; ++i) {
+      const Vec_3 p = position(cell->vertex(i));
+      k[static_cast<std::size_t>(i)] = {p.x, p.y, p.z};
+    }
+    std::ranges::sort(k);
+    return k;
+  }
+};
+
+/// Removes slivers within a territory, one after the other: moves vertices, then adds some, then moves again.
+///
+/// What it does is a function of the mesh within the territory and of the slivers that it is given.
+template <class Tr, class Criteria>
+class Sliver_remover_3 {
+ public:
+  using Complex = Constraint_complex_3<Tr>;
+  using Cell_handle = typename Tr::Cell_handle;
+  using Vertex_handle = typename Tr::Vertex_handle;
+  using Sliver = Sliver_3<Tr>;
+
+  struct Result {
+    std::size_t moved = 0, added = 0;
+    std::vector<Sliver> foreign;   ///< those for which other borders might help
+    std::vector<Sliver> hopeless;  ///< the other ones that are left
+  };
+
+  /// `wanted`: the cosine of the angle below which a tetrahedron is a sliver.
+  Sliver_remover_3(Tr& tr, Complex& complex, const Tetrahedron_judge<Criteria>& judge, double wanted, const Territory_3<Tr>& territory)
+      : wanted_(wanted), mover_(tr, complex, judge, territory), inserter_(tr, complex, judge, territory) {}
+
+  Result run(std::vector<Sliver> slivers) {
+    std::sort(slivers.begin(), slivers.end());
+    known_ = std::move(slivers);
+    std::size_t first = 0;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (; first < known_.size(); ++first) enqueue(known_[first]);
+      move_queued(first);
+      insert_all();
+    }
+    for (; first < known_.size(); ++first) enqueue(known_[first]);
+    move_queued(first);
+    for (const Sliver& s : known_)
+      if (s.is_live()) (is_foreign(s) ? result_.foreign : result_.hopeless).push_back(s);
+    return std::move(result_);
+  }
+
+ private:
+  void enqueue(const Sliver& s) {
+    if (!s.is_live()) return;
+    for (int i = 0; i < 4; ++i) {
+      const Vertex_handle v = s.cell->vertex(i);
+      if (v->in_dimension() == 3 && queued_.insert(&*v).second) queue_.push_back(v);
+    }
+  }
+
+  /// `first`: of the known ones that are not queued.
+  void move_queued(std::size_t& first) {
+    using Outcome = typename Vertex_mover_3<Tr, Criteria>::Outcome;
+    while (!queue_.empty()) {
+      const Vertex_handle v = queue_.front();
+      queue_.pop_front();
+      queued_.erase(&*v);
+      const Outcome outcome = mover_.improve(v, wanted_);
+      if (outcome == Outcome::foreign) foreign_.insert(&*v);
+      if (outcome != Outcome::moved) continue;
+      ++result_.moved;
+      mover_.for_made([this](Cell_handle c) { note(c); });
+      for (; first < known_.size(); ++first) enqueue(known_[first]);
+    }
+  }
+
+  void insert_all() {
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+      if (!known_[k].is_live()) continue;
+      if (!inserter_.insert(known_[k].cell, known_[k].cosine, wanted_)) continue;
+      ++result_.added;
+      for (const Cell_handle c : inserter_.star()) note(c);
+    }
+  }
+
+  void note(Cell_handle c) {
+    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) known_.push_back(Sliver::of(c, cosine));
+  }
+
+  bool is_foreign(const Sliver& s) const {
+    for (int i = 0; i < 4; ++i)
+      if (foreign_.contains(&*s.cell->vertex(i))) return true;
+    return false;
+  }
+
+  double wanted_;
+  Vertex_mover_3<Tr, Criteria> mover_;
+  Sliver_inserter_3<Tr, Criteria> inserter_;
+  std::vector<Sliver> known_;  ///< all that there were, gone or not
+  std::deque<Vertex_handle> queue_;
+  std::unordered_set<const void*> queued_, foreign_;  // asked, never walked through
+  Result result_;
+};
+
+}  // namespace pgdr
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SLIVERS_TETRAHEDRON_JUDGE_H
+#define PGDR_SLIVERS_TETRAHEDRON_JUDGE_H
+
+#include <cstdint>
+
+#include <pgdr/mesh/tetrahedron_ball.h>
+
+namespace pgdr {
+
+/// Whether a tetrahedron that would be made is one that the refinement would leave, and how small its angles are.
+template <class Criteria>
+class Tetrahedron_judge {
+ public:
+  static constexpr double refused = 2;  ///< more than any cosine
+
+  Tetrahedron_judge(const Criteria& criteria, double min_edge_length)
+      : criteria_(&criteria), squared_min_edge_(min_edge_length * min_edge_length) {}
+
+  /// The largest cosine of a dihedral angle; `refused` if it is not below the limit, or if the tetrahedron is poor or has too short an edge.
+  double operator()(const Tetrahedron_points& corners, std::int32_t subdomain, double limit) const {
+    const double cosine = largest_dihedral_cosine(corners);
+    if (cosine >= limit) return refused;
+    const Tetrahedron_ball ball = tetrahedron_ball(corners);
+    return ball.squared_shortest < squared_min_edge_ || criteria_->is_poor(ball, subdomain) ? refused : cosine;
+  }
+
+ private:
+  const Criteria* criteria_;
+  double squared_min_edge_;
+};
+
+}  // namespace pgdr
+
+#endif

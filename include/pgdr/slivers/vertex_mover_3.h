@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SLIVERS_VERTEX_MOVER_3_H
+#define PGDR_SLIVERS_VERTEX_MOVER_3_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <pgdr/conforming/cavity_features_3.h>
+#include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/mesh/cavity_3.h>
+#include <pgdr/mesh/vertex_hole_3.h>
+#include <pgdr/slivers/tetrahedron_judge.h>
+
+namespace pgdr {
+
+/// Moves vertices inside of volumes to where the smallest dihedral angle of all tetrahedra that change is larger.
+///
+/// A place is looked at without a change of the triangulation: of the tetrahedra that would fill the vertex's hole (`Vertex_hole_3`), and of
+/// those around it, the place's ball holds some no more, and the star replaces these.
+template <class Tr, class Criteria>
+class Vertex_mover_3 {
+ public:
+  using Complex = Constraint_complex_3<Tr>;
+  using Cell_handle = typename Tr::Cell_handle;
+  using Vertex_handle = typename Tr::Vertex_handle;
+  using Point = typename Tr::Point;
+
+  enum class Outcome { moved, stays, foreign };
+
+  Vertex_mover_3(Tr& tr, Complex& complex, Tetrahedron_judge<Criteria> judge, const Territory_3<Tr>& territory)
+      : tr_(tr), complex_(complex), judge_(judge), territory_(territory), hole_(tr), cavity_(tr) {
+    hole_.set_territory(territory);
+    cavity_.set_territory(territory);
+  }
+
+  /// Moves v if that makes the largest cosine of a dihedral angle in its star smaller; unless it is at most `wanted` already.
+  /// `foreign`: it stays, but might not with other borders.
+  Outcome improve(Vertex_handle v, double wanted) {
+    is_foreign_ = false;
+    if (!territory_.leads_on(v)) return Outcome::foreign;
+    if (v->in_dimension() != 3 || v->cell()->subdomain() == 0) return Outcome::stays;
+    if (!hole_.find(v)) return hole_.is_foreign() ? Outcome::foreign : Outcome::stays;
+    const double now = measure_star();
+    if (now <= wanted || !hole_.fill()) return Outcome::stays;
+    measure_filling(now);
+    if (!search(position(v), now, wanted)) return is_foreign_ ? Outcome::foreign : Outcome::stays;
+    return move(v) ? Outcome::moved : Outcome::stays;
+  }
+
+  /// The tetrahedra made by the last move.
+  template <class F>
+  void for_made(const F& f) const {
+    for (const Cell_handle c : filling_made_) f(c);
+    for (const Cell_handle c : cavity_.star()) f(c);
+  }
+
+ private:
+  static constexpr double refused = 2;  ///< more than any cosine
+
+  double measure_star() {
+    double worst = -1;
+    shortest_ = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < hole_.star().size(); ++k) {
+      const Tetrahedron_points corners = tetrahedron_points(hole_.star()[k]);
+      if (const double cosine = largest_dihedral_cosine(corners); cosine > worst) {
+        worst = cosine;
+        steepest_ = gradient(corners, static_cast<std::size_t>(hole_.apex(k)));
+      }
+    }
+    const Vec_3 at = position(vertex());
+    for (const Vec_3& p : hole_.points()) shortest_ = std::min(shortest_, squared_distance(at, p));
+    shortest_ = std::sqrt(shortest_);
+    return worst;
+  }
+
+  Vertex_handle vertex() const { return hole_.star().front()->vertex(hole_.apex(0)); }
+
+  /// The direction in which a corner leaves the plane of the others.
+  static Vec_3 gradient(const Tetrahedron_points& p, std::size_t apex) {
+    const Vec_3 a = p[(apex + 1) & 3], n = cross(p[(apex + 2) & 3] - a, p[(apex + 3) & 3] - a);
+    const double l = length(n);
+    if (!(l > 0)) return {};
+    return ((dot(p[apex] - a, n) < 0 ? -1 : 1) / l) * n;
+  }
+
+  void measure_filling(double limit) {
+    filling_cosine_.clear();
+    for (const auto& t : hole_.filling()) filling_cosine_.push_back(judge_(hole_.points_of(t), vertex()->cell()->subdomain(), limit));
+  }
+
+  /// Looks for a place; the first good enough, else the best.
+  bool search(const Vec_3& from, double now, double wanted) {
+    // Relative to the shortest edge at the vertex.
+    constexpr double steps[] = {0.12, 0.25, 0.05, 0.4};
+    double best = now;
+    const auto attempt = [&](const Vec_3& direction, double step) {
+      const Vec_3 at = from + (step * shortest_) * direction;
+      const double cosine = worst_at(at, best);
+      if (cosine >= best) return false;
+      best = cosine;
+      place_ = at;
+      return cosine <= wanted;
+    };
+    for (const double step : steps)
+      for (const double sign : {1.0, -1.0})
+        if (attempt(sign * steepest_, step)) return true;
+    for (const double step : steps)
+      for (int k = 0; k < 27; ++k) {
+        const Vec_3 d{static_cast<double>(k % 3 - 1), static_cast<double>(k / 3 % 3 - 1), static_cast<double>(k / 9 - 1)};
+        if (k != 13 && attempt((1 / length(d)) * d, step)) return true;
+      }
+    return best < now;
+  }
+
+  /// The largest cosine of a dihedral angle of what is new with the vertex there; `refused` if that is not below the limit, or one of them
+  /// would not do, or a piece of the input would be lost.
+  double worst_at(const Vec_3& at, double limit) {
+    const Point p(at.x, at.y, at.z);
+    const auto& filling = hole_.filling();
+    in_conflict_.resize(filling.size());
+    bool is_any = false;
+    double worst = -1;
+    for (std::size_t k = 0; k < filling.size(); ++k) {
+      in_conflict_[k] = hole_.in_conflict(filling[k], p);
+      is_any |= in_conflict_[k];
+      if (!in_conflict_[k]) worst = std::max(worst, filling_cosine_[k]);
+    }
+    if (!is_any || worst >= limit) return refused;
+    const std::int32_t subdomain = hole_.star().front()->subdomain();
+    const auto face = [&](Tetrahedron_points corners, std::size_t i) {
+      corners[i] = at;
+      worst = std::max(worst, judge_(corners, subdomain, limit));
+      return worst < limit;
+    };
+    for (std::size_t k = 0; k < filling.size(); ++k)
+      if (in_conflict_[k])
+        for (std::size_t i = 0; i < 4; ++i) {
+          const std::int32_t n = filling[k].neighbors[i];
+          if (!hole_.is_beyond(n) && !in_conflict_[static_cast<std::size_t>(n)] && !face(hole_.points_of(filling[k]), i)) return refused;
+        }
+    outside_.clear();
+    const auto& star = hole_.star();
+    for (std::size_t k = 0; k < star.size(); ++k) {
+      if (!in_conflict_[static_cast<std::size_t>(hole_.filling_behind(k))]) continue;
+      const int i = hole_.apex(k);
+      switch (look_at(star[k], i, p)) {
+        case Beyond::in_conflict: break;
+        case Beyond::refused: return refused;
+        case Beyond::boundary:
+          if (!face(tetrahedron_points(star[k]), static_cast<std::size_t>(i))) return refused;
+      }
+    }
+    for (std::size_t m = 0; m < outside_.size(); ++m) {
+      const Cell_handle c = outside_[m];
+      for (int i = 0; i < 4; ++i) {
+        const Cell_handle n = c->neighbor(i);
+        bool is_boundary;
+        if (const auto k = static_cast<std::size_t>(std::ranges::find(star, n) - star.begin()); k < star.size()) {
+          is_boundary = !in_conflict_[static_cast<std::size_t>(hole_.filling_behind(k))];
+        } else {
+          const Beyond b = look_at(c, i, p);
+          if (b == Beyond::refused) return refused;
+          is_boundary = b == Beyond::boundary;
+        }
+        if (is_boundary && !face(tetrahedron_points(c), static_cast<std::size_t>(i))) return refused;
+      }
+    }
+    return worst;
+  }
+
+  enum class Beyond { boundary, in_conflict, refused };
+
+  /// Whether the ball of the tetrahedron beyond a triangle holds p.
+  Beyond look_at(Cell_handle c, int i, const Point& p) {
+    const Cell_handle n = c->neighbor(i);
+    if (std::ranges::find(outside_, n) == outside_.end()) {
+      if (!tr_.in_conflict(n, p)) return Beyond::boundary;
+      if (!territory_.owns(n)) {
+        is_foreign_ = true;
+        return Beyond::refused;
+      }
+      if (tr_.is_infinite(n)) return Beyond::refused;
+      outside_.push_back(n);
+    }
+    return c->subfacet(i) == Complex::none && n->subdomain() == c->subdomain() ? Beyond::in_conflict : Beyond::refused;
+  }
+
+  /// To the place that was found; back again if that would lose a subsegment.
+  bool move(Vertex_handle v) {
+    const Point before = v->point(), at(place_.x, place_.y, place_.z);
+    filling_made_ = hole_.commit();
+    const bool is_kept = find(at);
+    if (!is_kept) find(before);
+    std::erase_if(filling_made_, [](Cell_handle c) { return Cavity_3<Tr>::contains(c); });
+    cavity_.commit(is_kept ? at : before, v);
+    if (is_kept) v->set_insertion_radius(nearest_);
+    return is_kept;
+  }
+
+  bool find(const Point& p) {
+    for (const Cell_handle c : filling_made_)
+      if (tr_.in_conflict(c, p)) {
+        if (!cavity_.find(p, c)) return false;
+        features_.gather(complex_, cavity_);
+        const auto is_deleted = [](const auto& f) { return f.deleted; };
+        if (std::ranges::any_of(features_.subsegments(), is_deleted) || std::ranges::any_of(features_.subfacets(), is_deleted)) {
+          cavity_.abandon();
+          return false;
+        }
+        nearest_ = std::sqrt(cavity_.squared_insertion_radius(to_vec(p)));
+        return true;
+      }
+    return false;
+  }
+
+  Tr& tr_;
+  Complex& complex_;
+  Tetrahedron_judge<Criteria> judge_;
+  Territory_3<Tr> territory_;
+  Vertex_hole_3<Tr> hole_;
+  Cavity_3<Tr> cavity_;
+  Cavity_features_3<Tr> features_;
+  double shortest_ = 0;
+  Vec_3 steepest_;
+  Vec_3 place_;
+  double nearest_ = 0;
+  bool is_foreign_ = false;
+  std::vector<double> filling_cosine_;
+  std::vector<std::uint8_t> in_conflict_;
+  std::vector<Cell_handle> outside_;
+  std::vector<Cell_handle> filling_made_;
+};
+
+}  // namespace pgdr
+
+#endif
