@@ -146,56 +146,40 @@ class Feature_refiner_3 {
 
   /// Splits a subsegment.
   Split_outcome split_subsegment(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
-    auto& s = complex_.subsegment(slot);
-    const double radius = complex_.subsegment_radius(slot);
-    const Vec_3 m = split_points_.of_subsegment(slot);
-    const auto is_to_be_alone = [&](std::uint32_t t) { return needs_to_be_alone(complex_.subfacet(t).facet, m, radius); };
-    if (!region_.contains(m) || !territory().owns(s.vertices) || std::ranges::any_of(s.subfacets, is_to_be_alone))
-      return point_elsewhere(m, complex_.subsegment_id(slot), true);
-    if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
-    if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
-    const bool is_plain = reason == Split_reason::encroached && guard.count == 0;
-    if ((is_plain && guard.floor >= s.refused_floor) || spacing_.is_too_close(m, s.vertices, reason, guard, radius))
-      return Split_outcome::refused;
-    const Point p(m.x, m.y, m.z);
-    if (const auto r = search_.from_subsegment(p, s); r != Search_result::found)
-      return blocked(r == Search_result::foreign, m, complex_.subsegment_id(slot), true);
-    if (!is_wide_enough(m, {1, s.segment}, s.vertices, reason, guard, radius)) {
-      if (is_plain && guard.reach == 0) s.refused_floor = std::min(s.refused_floor, guard.floor);
-      return abandon();
-    }
+    return split_subsegment_at(slot, split_points_.of_subsegment(slot), reason, guard, always);
+  }
 
-    features_.gather(complex_, cavity_);
-    if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {1, s.segment}, slot))
-      return abandon();
-    features_.mark_deleted(complex_, true);
-    stars_.resize(s.subfacets.size());
-    for (std::size_t k = 0; k < s.subfacets.size(); ++k)
-      if (!stars_[k].plan(complex_, s.subfacets[k], p, slot, territory())) {
-        features_.mark_deleted(complex_, false);
-        cavity_.abandon();
-        return blocked(stars_[k].is_foreign(), m, complex_.subsegment_id(slot), true);
-      }
-    const Vertex_handle v = commit(p, m, {1, s.segment});
-    // Vertices on the shell of one acute corner come as close to each other as the angles there make them; what
-    // counts as their insertion radius is the shell's.
-    for (const Vertex_handle end : s.vertices)
-      if (split_points_.is_acute(end))
-        v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
-    inherit(v, guard);
-    finish(v, complex_.halve_subsegment(pool_, slot, v), slot);
-    complex_.remove_subsegment(pool_, slot);
-    mirror(v, reason);
-    return Split_outcome::inserted;
+  /// Where a subsegment may be split: at a share of its length, but from an acute corner on at its shell only.
+  Vec_3 point_on_subsegment(std::uint32_t slot, double share) const {
+    const auto& ends = complex_.subsegment(slot).vertices;
+    if (split_points_.is_acute(ends[0]) || split_points_.is_acute(ends[1])) return split_points_.of_subsegment(slot);
+    return (1 - share) * position(ends[0]) + share * position(ends[1]);
+  }
+  /// Where a subfacet may be split: at a share of the way from its circumcenter to its centroid.
+  Vec_3 point_on_subfacet(std::uint32_t slot, double share) const {
+    const auto& t = complex_.subfacet(slot);
+    const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
+    return complex_.plane(t.facet).project((1 - share) * triangle_circumcenter(a, b, c) + (share / 3) * (a + b + c));
+  }
+
+  /// Puts a point on a piece at m where that deletes no piece but those that it replaces, and `is_good(cavity, at)`. What it
+  /// encroaches stays so.
+  template <class Good>
+  bool put_on_piece(std::uint32_t slot, bool is_subsegment, const Vec_3& m, const Good& is_good) {
+    const auto accept = [&](std::uint32_t split, const Vec_3& at) { return !tears_others(split) && is_good(std::as_const(cavity_), at); };
+    const Split_outcome outcome = is_subsegment ? split_subsegment_at(slot, m, Split_reason::flat, {}, accept)
+                                                : split_subfacet_at(slot, m, Split_reason::flat, {}, accept);
+    close(most_images);
+    return outcome == Split_outcome::inserted;
   }
 
   /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
   Split_outcome split_subfacet(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
-    const Split_outcome outcome = split_subfacet_at(slot, split_points_.of_subfacet(slot, reason), reason, guard);
+    const Split_outcome outcome = split_subfacet_at(slot, split_points_.of_subfacet(slot, reason), reason, guard, always);
     if (reason != Split_reason::missing || outcome != Split_outcome::refused) return outcome;
     // In a bent facet, the circumcenter of a flat one may be taken already. One that is missing has to be split all the same.
     const auto [at, subsegment] = split_points_.on_longest_edge(slot);
-    return subsegment != Complex::none ? split_subsegment(subsegment, reason, guard) : split_subfacet_at(slot, at, reason, guard);
+    return subsegment != Complex::none ? split_subsegment(subsegment, reason, guard) : split_subfacet_at(slot, at, reason, guard, always);
   }
 
   /// Tetrahedra made since the last call, some of them gone again. The caller empties it.
@@ -288,6 +272,58 @@ class Feature_refiner_3 {
 
  private:
   using Image = typename Facet_images_3<Tr>::Image;
+  static constexpr auto always = [](std::uint32_t, const Vec_3&) { return true; };
+  static constexpr std::size_t most_images = 10000;  ///< and pieces that they delete, of one point
+
+  /// Splits a subsegment at m, unless `accept(slot, m)` says no when the cavity is found, and the stars in the facets are planned.
+  template <class Accept>
+  Split_outcome split_subsegment_at(std::uint32_t slot, const Vec_3& m, Split_reason reason, const Split_guard& guard, const Accept& accept) {
+    auto& s = complex_.subsegment(slot);
+    const double radius = complex_.subsegment_radius(slot);
+    const auto is_to_be_alone = [&](std::uint32_t t) { return needs_to_be_alone(complex_.subfacet(t).facet, m, radius); };
+    if (!region_.contains(m) || !territory().owns(s.vertices) || std::ranges::any_of(s.subfacets, is_to_be_alone))
+      return point_elsewhere(m, complex_.subsegment_id(slot), true);
+    if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
+    if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
+    const bool is_plain = reason == Split_reason::encroached && guard.count == 0;
+    if ((is_plain && guard.floor >= s.refused_floor) || spacing_.is_too_close(m, s.vertices, reason, guard, radius))
+      return Split_outcome::refused;
+    const Point p(m.x, m.y, m.z);
+    if (const auto r = search_.from_subsegment(p, s); r != Search_result::found)
+      return blocked(r == Search_result::foreign, m, complex_.subsegment_id(slot), true);
+    if (!is_wide_enough(m, {1, s.segment}, s.vertices, reason, guard, radius)) {
+      if (is_plain && guard.reach == 0) s.refused_floor = std::min(s.refused_floor, guard.floor);
+      return abandon();
+    }
+
+    features_.gather(complex_, cavity_);
+    if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {1, s.segment}, slot))
+      return abandon();
+    features_.mark_deleted(complex_, true);
+    stars_.resize(s.subfacets.size());
+    for (std::size_t k = 0; k < s.subfacets.size(); ++k)
+      if (!stars_[k].plan(complex_, s.subfacets[k], p, slot, territory())) {
+        features_.mark_deleted(complex_, false);
+        cavity_.abandon();
+        return blocked(stars_[k].is_foreign(), m, complex_.subsegment_id(slot), true);
+      }
+    if (!accept(slot, m)) {
+      features_.mark_deleted(complex_, false);
+      return abandon();
+    }
+    const Vertex_handle v = commit(p, m, {1, s.segment});
+    // Vertices on the shell of one acute corner come as close to each other as the angles there make them; what
+    // counts as their insertion radius is the shell's.
+    for (const Vertex_handle end : s.vertices)
+      if (split_points_.is_acute(end))
+        v->set_insertion_radius(std::max<double>(v->insertion_radius(), length(m - position(end))));
+    inherit(v, guard);
+    finish(v, complex_.halve_subsegment(pool_, slot, v), slot);
+    complex_.remove_subsegment(pool_, slot);
+    mirror(v, reason);
+    return Split_outcome::inserted;
+  }
+
   static constexpr int most_tries = 3;  ///< of putting an image, with subsegments in the way
 
   void handle(bool only_missing) {
@@ -340,7 +376,8 @@ class Feature_refiner_3 {
     return true;
   }
 
-  Split_outcome split_subfacet_at(std::uint32_t slot, Vec_3 m, Split_reason reason, const Split_guard& guard) {
+  template <class Accept>
+  Split_outcome split_subfacet_at(std::uint32_t slot, Vec_3 m, Split_reason reason, const Split_guard& guard, const Accept& accept) {
     const auto& t = complex_.subfacet(slot);
     if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
     if (reason == Split_reason::encroached && split_points_.is_subfacet_protected(slot)) return Split_outcome::refused;
@@ -384,10 +421,19 @@ class Feature_refiner_3 {
     if (!is_wide_enough(m, {2, t.facet}, t.vertices, reason, guard, radius)) return abandon();
     if (reason == Split_reason::encroached && tears_protected(complex_, features_, acute_, m, {2, t.facet}, Complex::none))
       return abandon();
-    const Vertex_handle v = insert_on_facet(at.subfacet, p, m, guard);
+    const Vertex_handle v = insert_on_facet(at.subfacet, p, m, guard, accept);
     if (v == Vertex_handle()) return blocked(stars_[0].is_foreign(), m, complex_.subfacet_id(slot), false);
     mirror(v, reason);
     return Split_outcome::inserted;
+  }
+
+  /// Whether the point whose cavity is found, and whose stars are planned, would delete pieces that it does not replace.
+  bool tears_others(std::uint32_t split) const {
+    const auto is_replaced = [this](std::uint32_t t) {
+      return std::ranges::any_of(stars_, [t](const auto& star) { return std::ranges::find(star.removed(), t) != star.removed().end(); });
+    };
+    return std::ranges::any_of(features_.subsegments(), [split](const auto& f) { return f.deleted && f.slot != split; }) ||
+           std::ranges::any_of(features_.subfacets(), [&](const auto& f) { return f.deleted && !is_replaced(f.slot); });
   }
 
   bool is_near(const auto& vertices) const {
@@ -505,10 +551,11 @@ class Feature_refiner_3 {
 
   /// Inserts p into the subfacet that holds it. None, with the cavity abandoned, if the sheet would not stay whole.
   /// \pre p's cavity is found and its features are gathered
-  Vertex_handle insert_on_facet(std::uint32_t at, const Point& p, const Vec_3& m, const Split_guard& guard = {}) {
+  template <class Accept = decltype(always)>
+  Vertex_handle insert_on_facet(std::uint32_t at, const Point& p, const Vec_3& m, const Split_guard& guard = {}, const Accept& accept = always) {
     features_.mark_deleted(complex_, true);
     stars_.resize(1);
-    if (!stars_[0].plan(complex_, at, p, Complex::none, territory())) {
+    if (!stars_[0].plan(complex_, at, p, Complex::none, territory()) || !accept(Complex::none, m)) {
       features_.mark_deleted(complex_, false);
       cavity_.abandon();
       return {};

@@ -92,6 +92,7 @@ class Delaunay_leaf_refiner_3 {
 
   /// The convex hull of all that is refined.
   const Region_3& hull() const { return hull_.box(); }
+  const Acute_neighborhood_3& acute() const { return acute_; }
   /// A vertex at a corner of the hull.
   Vertex_handle corner() const { return hull_.corner(); }
 
@@ -294,6 +295,40 @@ class Delaunay_leaf_refiner_3 {
     result.inserted = features.inserted() - before;
     close(w, list);
     list.torn_ = false;
+    return result;
+  }
+
+  /// Puts a point on a piece of a feature at a share of its length, or of the way from circumcenter to centroid, as
+  /// `Feature_refiner_3::put_on_piece`. \pre as `split_piece`
+  template <class Good>
+  bool put_on_piece(Worker& w, const Piece_id& piece, bool is_subsegment, double share, const Good& is_good) {
+    if (is_subsegment ? !complex_.is_live_subsegment(piece) : !complex_.is_live_subfacet(piece)) return false;
+    Worklist list;
+    const Leaf_task task;
+    open(w, task, list);
+    Features& features = w.features_;
+    const Vec_3 m = is_subsegment ? features.point_on_subsegment(piece.slot, share) : features.point_on_subfacet(piece.slot, share);
+    const bool is_put = features.put_on_piece(piece.slot, is_subsegment, m, is_good);
+    close(w, list);
+    if (is_put) drain(w, task, list);
+    return is_put;
+  }
+
+  /// Splits one piece of a feature, as far as the guard allows, and refines what is missing or poor after that. \pre no other thread
+  /// works, and nothing is missing or poor
+  Drain_result split_piece(Worker& w, const Piece_id& piece, bool is_subsegment, const Split_guard& guard, const std::atomic<bool>* cancel) {
+    Worklist list;
+    Leaf_task task;
+    task.cancel = cancel;
+    open(w, task, list);
+    Features& features = w.features_;
+    if (is_subsegment ? complex_.is_live_subsegment(piece) : complex_.is_live_subfacet(piece))
+      is_subsegment ? features.split_subsegment(piece.slot, Split_reason::encroached, guard)
+                    : features.split_subfacet(piece.slot, Split_reason::encroached, guard);
+    features.close(10000);
+    close(w, list);
+    Drain_result result = drain(w, task, list);
+    if (result.stopped) settle(w, std::array{&list}, true, task.outside_target, list, cancel);
     return result;
   }
 

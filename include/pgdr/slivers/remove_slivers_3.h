@@ -2,10 +2,12 @@
 #ifndef PGDR_SLIVERS_REMOVE_SLIVERS_3_H
 #define PGDR_SLIVERS_REMOVE_SLIVERS_3_H
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -14,13 +16,15 @@
 #include <pgdr/refinement/divide_worklist_3.h>
 #include <pgdr/refinement/territory_map.h>
 #include <pgdr/report/run_statistics.h>
+#include <pgdr/slivers/feature_sliver_remover_3.h>
 #include <pgdr/slivers/sliver_remover_3.h>
 
 namespace pgdr {
 
-/// Removes tetrahedra with a dihedral angle below the wanted one, with all threads of the caller's arena, in rounds each of which divides
-/// them among territories; the mesh is the same for every number of threads.
-template <class Tr, class Criteria>
+/// Removes tetrahedra with a dihedral angle below the wanted one, with all threads of the caller's arena: by moves and new vertices inside,
+/// in rounds each of which divides the slivers among territories; then, alone, by new vertices on features; and so on, until that
+/// makes no difference. The mesh is the same for every number of threads.
+template <class Tr, class Criteria, class Engine>
 class Sliver_removal_3 {
  public:
   using Complex = Constraint_complex_3<Tr>;
@@ -28,26 +32,38 @@ class Sliver_removal_3 {
   using Sliver = Sliver_3<Tr>;
   using Remover = Sliver_remover_3<Tr, Criteria>;
 
-  /// `wanted`: the cosine of the angle.
-  Sliver_removal_3(Tr& tr, Complex& complex, const Criteria& criteria, double min_edge_length, double wanted, const std::atomic<bool>* cancel)
-      : tr_(tr), complex_(complex), judge_(criteria, min_edge_length), wanted_(wanted), cancel_(cancel) {}
+  /// `wanted`: the cosine of the angle. `engine` refines what is split. `most_vertices`: of the triangulation.
+  Sliver_removal_3(Tr& tr, Complex& complex, const Criteria& criteria, double min_edge_length, double wanted, Engine& engine,
+                   std::size_t most_vertices, const std::atomic<bool>* cancel)
+      : tr_(tr), complex_(complex), judge_(criteria, min_edge_length), wanted_(wanted), engine_(engine), most_vertices_(most_vertices),
+        cancel_(cancel) {}
 
   Sliver_statistics run() {
     std::vector<Sliver> slivers = find_slivers();
     statistics_.found = slivers.size();
-    for (std::size_t round = 0; !slivers.empty() && !is_cancelled(); ++round) {
-      const std::size_t n = round < most_rounds ? territory_count(slivers.size(), 0) : 0;
-      slivers = n == 0 ? alone(std::move(slivers)) : divided(std::move(slivers), n, round);
-      if (n == 0) break;
+    Feature_sliver_remover_3<Tr, Criteria, Engine> on_features(tr_, complex_, judge_, wanted_, engine_, quota(), cancel_);
+    for (int pass = 0; pass < most_passes; ++pass) {
+      for (std::size_t round = 0; !slivers.empty() && !is_cancelled(); ++round) {
+        const std::size_t n = round < most_rounds ? territory_count(slivers.size(), 0) : 0;
+        slivers = n == 0 ? alone(std::move(slivers)) : divided(std::move(slivers), n, round);
+        if (n == 0) break;
+      }
+      if (!remove_on_features(on_features)) break;
+      slivers = find_slivers();
+      std::erase_if(slivers, [this](const Sliver& s) { return is_given_up(s); });
     }
-    statistics_.left = hopeless_ + slivers.size();
+    statistics_.left = find_slivers().size();
     return statistics_;
   }
 
  private:
-  static constexpr std::size_t most_rounds = 3;
+  static constexpr std::size_t most_rounds = 3;  ///< with territories
+  static constexpr int most_passes = 6;          ///< three are enough for most models
 
   bool is_cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
+
+  /// Vertices that may still be added.
+  std::size_t quota() const { return most_vertices_ - std::min(most_vertices_, tr_.number_of_vertices()); }
 
   std::vector<Sliver> find_slivers() const {
     std::vector<Sliver> all;
@@ -66,19 +82,23 @@ class Sliver_removal_3 {
   }
 
   std::vector<Sliver> alone(std::vector<Sliver> slivers) {
+    give_everything_away();
+    return take(Remover(tr_, complex_, judge_, wanted_, {}, quota(), cancel_).run(std::move(slivers)));
+  }
+
+  void give_everything_away() {
     for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) v->set_territory(0);
-    return take(Remover(tr_, complex_, judge_, wanted_, {}).run(std::move(slivers)));
   }
 
   std::vector<Sliver> divided(std::vector<Sliver> slivers, std::size_t n, std::size_t round) {
-    constexpr std::array<double, 3> shares{0.5, 0.4, 0.6};
+    constexpr std::array<double, most_rounds> shares{0.5, 0.4, 0.6};
     std::vector<Territory_map::Item> sample;
     for (const Sliver& s : slivers) {
       const Tetrahedron_points p = tetrahedron_points(s.cell);
       const Vec_3 center = 0.25 * (p[0] + p[1] + p[2] + p[3]);
       sample.push_back({center, {center, center}});
     }
-    mark_territories(tr_, Territory_map(std::move(sample), n, shares[round % shares.size()]));
+    mark_territories(tr_, Territory_map(std::move(sample), n, shares[round]));
     std::vector<std::vector<Sliver>> parts(n);
     std::vector<Sliver> left;
     for (const Sliver& s : slivers) {
@@ -88,8 +108,9 @@ class Sliver_removal_3 {
       (is_own ? parts[t - 1] : left).push_back(s);
     }
     std::vector<typename Remover::Result> results(n);
+    const std::size_t share = quota() / n;
     parallel_for(0, n, [&](std::size_t k) {
-      results[k] = Remover(tr_, complex_, judge_, wanted_, {static_cast<std::uint16_t>(k + 1)}).run(std::move(parts[k]));
+      results[k] = Remover(tr_, complex_, judge_, wanted_, {static_cast<std::uint16_t>(k + 1)}, share, cancel_).run(std::move(parts[k]));
     });
     for (auto& r : results) {
       const std::vector<Sliver> foreign = take(std::move(r));
@@ -102,17 +123,40 @@ class Sliver_removal_3 {
   std::vector<Sliver> take(typename Remover::Result&& result) {
     statistics_.moved += result.moved;
     statistics_.added += result.added;
-    hopeless_ += result.hopeless.size();
+    hopeless_.insert(hopeless_.end(), result.hopeless.begin(), result.hopeless.end());
     return std::move(result.foreign);
+  }
+
+  /// Of what nothing inside can cure. False if that adds nothing.
+  bool remove_on_features(Feature_sliver_remover_3<Tr, Criteria, Engine>& remover) {
+    std::erase_if(hopeless_, [](const Sliver& s) { return !s.is_live(); });
+    std::sort(hopeless_.begin(), hopeless_.end());
+    give_everything_away();
+    std::size_t inserted = 0;
+    for (const Sliver& s : hopeless_)
+      if (!is_cancelled()) inserted += remover.remove(s);
+    for (const Sliver& s : hopeless_)
+      if (s.is_live()) given_up_[&*s.cell] = s.generation;
+    hopeless_.clear();
+    statistics_.added += inserted;
+    return inserted > 0;
+  }
+
+  bool is_given_up(const Sliver& s) const {
+    const auto at = given_up_.find(&*s.cell);
+    return at != given_up_.end() && at->second == s.generation;
   }
 
   Tr& tr_;
   Complex& complex_;
   Tetrahedron_judge<Criteria> judge_;
   double wanted_;
+  Engine& engine_;
+  std::size_t most_vertices_;
   const std::atomic<bool>* cancel_;
   Sliver_statistics statistics_;
-  std::size_t hopeless_ = 0;
+  std::vector<Sliver> hopeless_;  ///< what is left inside
+  std::unordered_map<const void*, std::uint32_t> given_up_;  // asked, never walked through
 };
 
 }  // namespace pgdr

@@ -3,44 +3,18 @@
 #define PGDR_SLIVERS_SLIVER_REMOVER_3_H
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <unordered_set>
 #include <vector>
 
+#include <pgdr/slivers/sliver_3.h>
 #include <pgdr/slivers/sliver_inserter_3.h>
 #include <pgdr/slivers/vertex_mover_3.h>
 
 namespace pgdr {
-
-/// A tetrahedron with a small dihedral angle.
-template <class Tr>
-struct Sliver_3 {
-  typename Tr::Cell_handle cell;
-  std::uint32_t generation = 0;
-  double cosine = 1;  ///< of its smallest dihedral angle
-
-  static Sliver_3 of(typename Tr::Cell_handle c, double cosine) { return {c, c->generation(), cosine}; }
-  bool is_live() const { return cell->generation() == generation; }
-
-  /// The flattest first; equal ones by their places, since cells come in an order that timing decides.
-  friend bool operator<(const Sliver_3& a, const Sliver_3& b) {
-    return a.cosine != b.cosine ? a.cosine > b.cosine : a.key() < b.key();
-  }
-
- private:
-  std::array<std::array<double, 3>, 4> key() const {
-    std::array<std::array<double, 3>, 4> k;
-    for (int i = 0; i < 4; ++i) {
-      const Vec_3 p = position(cell->vertex(i));
-      k[static_cast<std::size_t>(i)] = {p.x, p.y, p.z};
-    }
-    std::ranges::sort(k);
-    return k;
-  }
-};
 
 /// Removes slivers within a territory, one after the other: moves vertices, then adds some, then moves again.
 ///
@@ -60,8 +34,10 @@ class Sliver_remover_3 {
   };
 
   /// `wanted`: the cosine of the angle below which a tetrahedron is a sliver.
-  Sliver_remover_3(Tr& tr, Complex& complex, const Tetrahedron_judge<Criteria>& judge, double wanted, const Territory_3<Tr>& territory)
-      : wanted_(wanted), mover_(tr, complex, judge, territory), inserter_(tr, complex, judge, territory) {}
+  /// `quota`: vertices that may be added.
+  Sliver_remover_3(Tr& tr, Complex& complex, const Tetrahedron_judge<Criteria>& judge, double wanted, const Territory_3<Tr>& territory,
+                   std::size_t quota, const std::atomic<bool>* cancel)
+      : wanted_(wanted), quota_(quota), cancel_(cancel), mover_(tr, complex, judge, territory), inserter_(tr, complex, judge, territory) {}
 
   Result run(std::vector<Sliver> slivers) {
     std::sort(slivers.begin(), slivers.end());
@@ -91,7 +67,7 @@ class Sliver_remover_3 {
   /// `first`: of the known ones that are not queued.
   void move_queued(std::size_t& first) {
     using Outcome = typename Vertex_mover_3<Tr, Criteria>::Outcome;
-    while (!queue_.empty()) {
+    while (!queue_.empty() && !is_cancelled()) {
       const Vertex_handle v = queue_.front();
       queue_.pop_front();
       queued_.erase(&*v);
@@ -105,13 +81,15 @@ class Sliver_remover_3 {
   }
 
   void insert_all() {
-    for (std::size_t k = 0; k < known_.size(); ++k) {
+    for (std::size_t k = 0; k < known_.size() && result_.added < quota_ && !is_cancelled(); ++k) {
       if (!known_[k].is_live()) continue;
       if (!inserter_.insert(known_[k].cell, known_[k].cosine, wanted_)) continue;
       ++result_.added;
       for (const Cell_handle c : inserter_.star()) note(c);
     }
   }
+
+  bool is_cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
 
   void note(Cell_handle c) {
     if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) known_.push_back(Sliver::of(c, cosine));
@@ -124,6 +102,8 @@ class Sliver_remover_3 {
   }
 
   double wanted_;
+  std::size_t quota_;
+  const std::atomic<bool>* cancel_;
   Vertex_mover_3<Tr, Criteria> mover_;
   Sliver_inserter_3<Tr, Criteria> inserter_;
   std::vector<Sliver> known_;  ///< all that there were, gone or not
