@@ -87,7 +87,8 @@ double parse_ratio_bound(const std::string& option, const std::string& text) {
 
 double parse_dihedral_angle(const std::string& option, const std::string& text) {
   const double value = parse_number(option, text);
-  if (!(value >= 0 && value <= 60)) throw Usage_error(option + " must be an angle from 0 to 60 degrees, not " + text);
+  if (!(value >= 0 && value <= Parameters::largest_min_dihedral))
+    throw Usage_error(option + " must be an angle from 0 to 60 degrees, not " + text);
   return value;
 }
 

@@ -36,6 +36,7 @@ struct Parameters {
   /// After the refinement, vertices are moved and a few added until no dihedral angle is below this one, in degrees, or as far as that gets;
   /// 0: they stay where they are.
   double min_dihedral = 0;
+  static constexpr double largest_min_dihedral = 60;  ///< the regular tetrahedron has 70.5
 
   /// Facets whose vertices lie this close to one plane, relative to the bounding box's diagonal, are fused.
   /// 1e-6 undoes single-precision files and is far below any feature that a simulation resolves.

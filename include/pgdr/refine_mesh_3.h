@@ -242,6 +242,8 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
                                 Placement placement) {
   if (!(parameters.radius_edge_ratio >= 2))
     throw std::invalid_argument("the radius-edge ratio must be at least 2: below it the refinement need not end");
+  if (!(parameters.min_dihedral >= 0 && parameters.min_dihedral <= Parameters::largest_min_dihedral))
+    throw std::invalid_argument("the smallest dihedral angle must be from 0 to " + significant(Parameters::largest_min_dihedral, 2) + " degrees");
   if (parameters.octree_depth < 0 || parameters.octree_depth > Parameters::largest_octree_depth)
     throw std::invalid_argument("the depth of the octree must be from 0 to " + std::to_string(Parameters::largest_octree_depth));
   return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), parameters, std::move(placement)).run(sizing);

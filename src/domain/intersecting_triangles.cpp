@@ -21,6 +21,8 @@ bool triangles_meet(std::array<Index, 3> a, std::array<Index, 3> b, const std::v
   };
   const auto common = std::stable_partition(a.begin(), a.end(), shared(b)) - a.begin();
   std::stable_partition(b.begin(), b.end(), shared(a));
+  // A triangle without area is no more than its edges, which its neighbors have, too; and no predicate takes one.
+  if (common < 2 && (triangle(a).is_degenerate() || triangle(b).is_degenerate())) return false;
   switch (common) {
     case 0:
       return CGAL::do_intersect(triangle(a), triangle(b));

@@ -29,14 +29,15 @@ ALLOWED = {
 }
 # For a room: the rooms that it must not include.
 FORBIDDEN = {
-    "schedule": {"mesh", "conforming", "acute"},
-    "refinement": {"schedule"},
-    "conforming": {"schedule", "parallel"},
-    "mesh": {"schedule", "parallel", "refinement", "conforming", "acute", "io", "quality", "report"},
+    "schedule": {"mesh", "conforming", "acute", "slivers"},
+    "refinement": {"schedule", "slivers"},
+    "slivers": {"schedule", "io", "quality"},
+    "conforming": {"schedule", "parallel", "slivers"},
+    "mesh": {"schedule", "parallel", "refinement", "slivers", "conforming", "acute", "io", "quality", "report"},
     "domain": {"mesh", "refinement", "conforming", "acute", "schedule", "io", "quality", "report"},
     "sizing": {"mesh", "refinement", "conforming", "acute", "schedule", "io", "quality", "report"},
-    "io": {"refinement", "conforming", "acute", "schedule"},
-    "quality": {"refinement", "conforming", "acute", "schedule"},
+    "io": {"refinement", "slivers", "conforming", "acute", "schedule"},
+    "quality": {"refinement", "slivers", "conforming", "acute", "schedule"},
 }
 # The engine is sequential; these headers of its room come after it.
 AFTER_REFINEMENT = {"refinement/indexed_mesh_of_3.h", "refinement/canonical_order.h", "refinement/sort_tetrahedra.h"}

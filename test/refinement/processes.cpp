@@ -26,6 +26,10 @@ std::uint64_t checksum_of_a_mesh(unsigned threads, double size = 0.1) {
 }  // namespace
 
 TEST_CASE("A thousand meshes in one process take no more memory than a hundred", "[refinement]") {
+#ifdef __SANITIZE_ADDRESS__
+  WARN("pgdr-test-skip: the address sanitizer keeps freed memory in quarantine");
+  return;
+#endif
   const auto make = [](int n) {
     for (int i = 0; i < n; ++i) checksum_of_a_mesh(2, 0.3);
     return pgdr::resident_memory_bytes();

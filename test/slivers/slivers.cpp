@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// No dihedral angle below the wanted one, and everything that held before still does.
+#include <pgdr/slivers/remove_slivers_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <pgdr/domain/reproducible_functions.h>
+#include <pgdr/io/read_plc.h>
+#include <pgdr/quality/mesh_quality.h>
+
+#include "catch.h"
+#include "inputs.h"
+#include "refinement/refined.h"
+#include "thread_counts.h"
+
+using namespace pgdr_test;
+
+namespace {
+
+constexpr double any_size = std::numeric_limits<double>::infinity();
+
+Mesh without_slivers(const pgdr::Plc& plc, double size, double angle, unsigned threads = 0) {
+  pgdr::Parameters parameters;
+  parameters.min_dihedral = angle;
+  parameters.threads = threads;
+  parameters.verify = true;
+  return refined(plc, size, parameters);
+}
+
+/// A ball of triangles, all of whose vertices are cospherical: an icosahedron, divided a few times.
+pgdr::Plc ball(int divisions) {
+  pgdr::Plc plc;
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  const auto add = [&](double x, double y, double z) {
+    const double l = std::sqrt(x * x + y * y + z * z);
+    plc.vertices.push_back({x / l, y / l, z / l});
+    return static_cast<pgdr::Index>(plc.vertices.size() - 1);
+  };
+  for (const double s : {1.0, -1.0})
+    for (const double t : {g, -g}) {
+      add(s, t, 0);
+      add(0, s, t);
+      add(t, 0, s);
+    }
+  const auto distance = [&](pgdr::Index a, pgdr::Index b) { return CGAL::to_double(CGAL::squared_distance(plc.vertices[a], plc.vertices[b])); };
+  std::vector<std::array<pgdr::Index, 3>> triangles;
+  for (pgdr::Index a = 0; a < 12; ++a)
+    for (pgdr::Index b = a + 1; b < 12; ++b)
+      for (pgdr::Index c = b + 1; c < 12; ++c)
+        if (std::max({distance(a, b), distance(b, c), distance(a, c)}) < 1.2) triangles.push_back({a, b, c});
+  for (; divisions > 0; --divisions) {
+    std::map<std::pair<pgdr::Index, pgdr::Index>, pgdr::Index> middles;
+    const auto middle = [&](pgdr::Index a, pgdr::Index b) {
+      const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), 0);
+      if (is_new) {
+        const pgdr::Vec_3 m = pgdr::to_vec(plc.vertices[a]) + pgdr::to_vec(plc.vertices[b]);
+        at->second = add(m.x, m.y, m.z);
+      }
+      return at->second;
+    };
+    std::vector<std::array<pgdr::Index, 3>> smaller;
+    for (const auto& [a, b, c] : triangles) {
+      const pgdr::Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      for (const auto& t : {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}}) smaller.push_back(t);
+    }
+    triangles = smaller;
+  }
+  for (const auto& [a, b, c] : triangles) {
+    plc.facets.emplace_back().polygons = {{a, b, c}};
+  }
+  return plc;
+}
+
+}  // namespace
+
+TEST_CASE("A cube has no dihedral angle below the wanted one", "[slivers]") {
+  const pgdr::Plc plc = pgdr::read_plc(data_file("cube.poly"));
+  const pgdr::Indexed_mesh_3 before = pgdr::indexed_mesh_3(refined(plc, 0.06));
+  CHECK(pgdr::mesh_quality(before).tetrahedra_below[1] > 20);
+  for (const double angle : {5.0, 14.0, 20.0}) {
+    CAPTURE(angle);
+    const Mesh mesh = without_slivers(plc, 0.06, angle);
+    const pgdr::Sliver_statistics& s = mesh.statistics().slivers;
+    const pgdr::Indexed_mesh_3 arrays = pgdr::indexed_mesh_3(mesh);
+    const pgdr::Mesh_quality quality = pgdr::mesh_quality(arrays);
+    CHECK(quality.min_dihedral_deg > angle - 1e-6);
+    CHECK(quality.max_radius_edge_ratio <= 2);
+    CHECK(quality.max_circumradius <= 0.06 * (1 + 1e-6));
+    CHECK(s.left == 0);
+    CHECK(s.found > 0);
+    CHECK(s.moved > 0);
+    CHECK(arrays.points.size() < 1.01 * static_cast<double>(before.points.size()));
+    CHECK(failures(pgdr::check_mesh(arrays, &mesh.domain())) == "");
+  }
+}
+
+TEST_CASE("The mesh without slivers is the same for every number of threads", "[slivers]") {
+  std::uint64_t first = 0;
+  for (const unsigned threads : thread_counts()) {
+    CAPTURE(threads);
+    const Mesh mesh = without_slivers(pgdr::read_plc(data_file("cube.poly")), 0.025, 20, threads);
+    CHECK(mesh.statistics().slivers.left == 0);
+    const std::uint64_t sum = pgdr::mesh_checksum(pgdr::indexed_mesh_3(mesh));
+    if (first == 0) first = sum;
+    CHECK(sum == first);
+  }
+}
+
+TEST_CASE("A ball of facets at obtuse angles has no slivers in the folds between them", "[slivers]") {
+  const pgdr::Plc plc = ball(3);
+  const pgdr::Mesh_quality before = pgdr::mesh_quality(pgdr::indexed_mesh_3(refined(plc)));
+  CHECK(before.min_dihedral_deg < 10);
+  const Mesh mesh = without_slivers(plc, any_size, 12);
+  const pgdr::Indexed_mesh_3 arrays = pgdr::indexed_mesh_3(mesh);
+  CHECK(pgdr::mesh_quality(arrays).min_dihedral_deg > 12 - 1e-6);
+  CHECK(failures(pgdr::check_mesh(arrays, &mesh.domain())) == "");
+}
+
+TEST_CASE("Shapes with features of all kinds stay conforming when slivers are removed", "[slivers]") {
+  for (const auto& [file, size] : {Sized_shape{"l_block.poly", 0.2}, Sized_shape{"cavity.poly", 0.4}, Sized_shape{"two_regions.poly", 0.2},
+                                   Sized_shape{"plate_with_hole.poly", 0.3}, Sized_shape{"winged_body_in_box.poly", any_size}}) {
+    CAPTURE(file);
+    const pgdr::Plc plc = pgdr::read_plc(data_file(file));
+    const pgdr::Mesh_quality before = pgdr::mesh_quality(pgdr::indexed_mesh_3(refined(plc, size)));
+    const Mesh mesh = without_slivers(plc, size, 14);
+    CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
+    const pgdr::Indexed_mesh_3 arrays = pgdr::indexed_mesh_3(mesh);
+    const pgdr::Mesh_quality after = pgdr::mesh_quality(arrays);
+    CHECK(after.tetrahedra_below[1] <= before.tetrahedra_below[1] / 10);
+    CHECK(failures(pgdr::check_mesh(arrays, &mesh.domain())) == "");
+  }
+}
+
+TEST_CASE("Real models lose their slivers", "[slivers]") {
+  for (const auto& [name, degrees] : {std::pair{"a05_fandisk.off", 14.0}, std::pair{"a09_elephant.off", 14.0}, std::pair{"a07_turbine.off", 10.0}}) {
+    CAPTURE(name);
+    const auto path = input_model(name);
+    if (!path) PGDR_SKIP(name << " is not there");
+    const pgdr::Plc plc = pgdr::read_plc(*path);
+    const std::size_t before = pgdr::indexed_mesh_3(refined(plc)).tetrahedra.size();
+    const Mesh mesh = without_slivers(plc, any_size, 14);
+    const pgdr::Indexed_mesh_3 arrays = pgdr::indexed_mesh_3(mesh);
+    CHECK(pgdr::mesh_quality(arrays).min_dihedral_deg > degrees - 1e-6);
+    CHECK(static_cast<double>(arrays.tetrahedra.size()) < 1.1 * static_cast<double>(before));
+    CHECK(failures(pgdr::check_mesh(arrays, &mesh.domain())) == "");
+  }
+}
+
+TEST_CASE("The limit of vertices holds while slivers are removed", "[slivers]") {
+  const pgdr::Plc plc = pgdr::read_plc(data_file("cube.poly"));
+  const std::size_t vertices = refined(plc, 0.06).triangulation().number_of_vertices();
+  pgdr::Parameters parameters;
+  parameters.min_dihedral = 22;
+  parameters.max_vertices = vertices + 2;
+  const Mesh mesh = refined(plc, 0.06, parameters);
+  CHECK(mesh.triangulation().number_of_vertices() <= vertices + 2);
+  CHECK(mesh.triangulation().is_valid());
+}
+
+TEST_CASE("An angle that no tetrahedron can have is refused", "[slivers]") {
+  const pgdr::Plc plc = pgdr::read_plc(data_file("cube.poly"));
+  for (const double angle : {-1.0, 71.0, std::nan("")}) CHECK_THROWS_AS(without_slivers(plc, 0.5, angle), std::invalid_argument);
+}
+
+TEST_CASE("Cosines of degrees are those of the C library but for the last bits", "[slivers]") {
+  for (double degrees = 0; degrees <= 180; degrees += 0.37) {
+    CAPTURE(degrees);
+    CHECK(std::abs(pgdr::cosine_of_degrees(degrees) - std::cos(degrees * std::acos(-1.0) / 180)) < 1e-14);
+  }
+}
