@@ -3,7 +3,7 @@
 """The meshes of golden.txt are what they were, bit for bit, whatever compiler and processor pgdr was compiled for.
 
 A mesh that changes is a decision: `test_golden.py --remake` writes the table anew, and the commit says why. Real models are
-looked for in PGDR_INPUTS, and left out where they are absent.
+looked for in PGDR_INPUTS, else in PGDR_INPUTS_DEFAULT, which ctest sets to where all tests look, and left out where they are absent.
 
 usage: PGDR_APP=build/release/pgdr test/golden/test_golden.py [--remake]
 """
@@ -23,7 +23,8 @@ FOLDERS = {"data": HERE.parents[1] / "data", "corpus": HERE.parent / "corpus"}
 def find(name):
     """The file that `data/cube.poly`, `corpus/fan_8.poly` or `inputs/a01.off` stands for; None where it is absent."""
     folder, file = name.split("/", 1)
-    path = FOLDERS.get(folder, pathlib.Path(os.environ.get("PGDR_INPUTS") or "")) / file
+    inputs = os.environ.get("PGDR_INPUTS") or os.environ.get("PGDR_INPUTS_DEFAULT") or ""
+    path = FOLDERS.get(folder, pathlib.Path(inputs)) / file
     return path if path.is_file() or folder != "inputs" else None
 
 
