@@ -2,6 +2,7 @@
 #ifndef PGDR_CONFORMING_CAVITY_FEATURES_3_H
 #define PGDR_CONFORMING_CAVITY_FEATURES_3_H
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,12 @@ class Cavity_features_3 {
   /// In the order in which the cavity's cells show them.
   const std::vector<Feature>& subsegments() const { return subsegments_; }
   const std::vector<Feature>& subfacets() const { return subfacets_; }
+
+  /// Whether the insertion would delete any of them.
+  bool deletes_any() const {
+    const auto is_deleted = [](const Feature& f) { return f.deleted; };
+    return std::ranges::any_of(subsegments_, is_deleted) || std::ranges::any_of(subfacets_, is_deleted);
+  }
 
   void gather(Complex& complex, const Cavity_3<Tr>& cavity) {
     subsegments_.clear();

@@ -117,9 +117,8 @@ class Feature_sliver_remover_3 {
       for (int j = 0; j < 4; ++j) is_on_boundary &= j == i || c->vertex(j)->in_dimension() < 3;
       if (is_on_boundary) value.relaxed = std::max(value.relaxed, cosine);
       value.strict = std::max(value.strict, cosine);
-      if (judge_(corners, c->subdomain(), refused) == refused) {
+      if (const Tetrahedron_ball ball = tetrahedron_ball(corners); judge_.refuses(ball, c->subdomain())) {
         value.strict = refused;
-        const Tetrahedron_ball ball = tetrahedron_ball(corners);
         if (++poor > most_poor || ball.squared_radius > most_ratio * most_ratio * ball.squared_shortest) value.relaxed = refused;
       }
       if (value.strict >= limit.strict && value.relaxed >= limit.relaxed) break;

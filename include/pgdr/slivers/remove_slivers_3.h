@@ -52,7 +52,8 @@ class Sliver_removal_3 {
       slivers = find_slivers();
       std::erase_if(slivers, [this](const Sliver& s) { return is_given_up(s); });
     }
-    statistics_.left = find_slivers().size();
+    // What is left of them all was given up, or not looked at.
+    statistics_.left = slivers.empty() && given_up_.empty() ? 0 : find_slivers().size();
     return statistics_;
   }
 
@@ -101,11 +102,10 @@ class Sliver_removal_3 {
     mark_territories(tr_, Territory_map(std::move(sample), n, shares[round]));
     std::vector<std::vector<Sliver>> parts(n);
     std::vector<Sliver> left;
+    const Territory_of_3<Tr> territory_of(complex_);
     for (const Sliver& s : slivers) {
-      const std::uint16_t t = s.cell->vertex(0)->territory();
-      bool is_own = true;
-      for (int i = 1; i < 4; ++i) is_own &= s.cell->vertex(i)->territory() == t;
-      (is_own ? parts[t - 1] : left).push_back(s);
+      const std::uint16_t t = territory_of({s.cell, s.generation});
+      (t == 0 ? left : parts[t - 1]).push_back(s);
     }
     std::vector<typename Remover::Result> results(n);
     const std::size_t share = quota() / n;
@@ -130,6 +130,7 @@ class Sliver_removal_3 {
   /// Of what nothing inside can cure. False if that adds nothing.
   bool remove_on_features(Feature_sliver_remover_3<Tr, Criteria, Engine>& remover) {
     std::erase_if(hopeless_, [](const Sliver& s) { return !s.is_live(); });
+    if (hopeless_.empty()) return false;
     std::sort(hopeless_.begin(), hopeless_.end());
     give_everything_away();
     std::size_t inserted = 0;

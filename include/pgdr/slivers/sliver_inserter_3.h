@@ -12,6 +12,7 @@
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/mesh/cavity_3.h>
+#include <pgdr/slivers/directions.h>
 #include <pgdr/slivers/tetrahedron_judge.h>
 
 namespace pgdr {
@@ -48,10 +49,8 @@ class Sliver_inserter_3 {
     bool is_found = attempt(ball.center);
     constexpr double steps[] = {0.3, 0.5, 0.7, 0.15, 0.85};
     for (const double step : steps)
-      for (int k = 0; k < 27 && !is_found; ++k) {
-        const Vec_3 d{static_cast<double>(k % 3 - 1), static_cast<double>(k / 3 % 3 - 1), static_cast<double>(k / 9 - 1)};
-        if (k != 13) is_found = attempt(ball.center + (step * radius / length(d)) * d);
-      }
+      for (const Vec_3& d : directions)
+        if (!is_found) is_found = attempt(ball.center + (step * radius / length(d)) * d);
     if (best >= now) return false;
     const Point p(place.x, place.y, place.z);
     if (!cavity_.find(p, c)) return false;
@@ -81,8 +80,7 @@ class Sliver_inserter_3 {
     }
     if (worst < limit) {
       features_.gather(complex_, cavity_);
-      const auto is_deleted = [](const auto& f) { return f.deleted; };
-      if (std::ranges::any_of(features_.subsegments(), is_deleted) || std::ranges::any_of(features_.subfacets(), is_deleted)) worst = refused;
+      if (features_.deletes_any()) worst = refused;
     }
     cavity_.abandon();
     return worst < limit ? worst : refused;

@@ -22,7 +22,12 @@ class Tetrahedron_judge {
     const double cosine = largest_dihedral_cosine(corners);
     if (cosine >= limit) return refused;
     const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    return ball.squared_shortest < squared_min_edge_ || criteria_->is_poor(ball, subdomain) ? refused : cosine;
+    return refuses(ball, subdomain) ? refused : cosine;
+  }
+
+  /// Whether it is poor or has too short an edge.
+  bool refuses(const Tetrahedron_ball& ball, std::int32_t subdomain) const {
+    return ball.squared_shortest < squared_min_edge_ || criteria_->is_poor(ball, subdomain);
   }
 
  private:

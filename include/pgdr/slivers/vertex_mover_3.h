@@ -13,6 +13,7 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/vertex_hole_3.h>
+#include <pgdr/slivers/directions.h>
 #include <pgdr/slivers/tetrahedron_judge.h>
 
 namespace pgdr {
@@ -59,7 +60,7 @@ class Vertex_mover_3 {
   }
 
  private:
-  static constexpr double refused = 2;  ///< more than any cosine
+  static constexpr double refused = Tetrahedron_judge<Criteria>::refused;
 
   double measure_star() {
     double worst = -1;
@@ -109,10 +110,8 @@ class Vertex_mover_3 {
       for (const double sign : {1.0, -1.0})
         if (attempt(sign * steepest_, step)) return true;
     for (const double step : steps)
-      for (int k = 0; k < 27; ++k) {
-        const Vec_3 d{static_cast<double>(k % 3 - 1), static_cast<double>(k / 3 % 3 - 1), static_cast<double>(k / 9 - 1)};
-        if (k != 13 && attempt((1 / length(d)) * d, step)) return true;
-      }
+      for (const Vec_3& d : directions)
+        if (attempt((1 / length(d)) * d, step)) return true;
     return best < now;
   }
 
@@ -206,8 +205,7 @@ class Vertex_mover_3 {
       if (tr_.in_conflict(c, p)) {
         if (!cavity_.find(p, c)) return false;
         features_.gather(complex_, cavity_);
-        const auto is_deleted = [](const auto& f) { return f.deleted; };
-        if (std::ranges::any_of(features_.subsegments(), is_deleted) || std::ranges::any_of(features_.subfacets(), is_deleted)) {
+        if (features_.deletes_any()) {
           cavity_.abandon();
           return false;
         }
