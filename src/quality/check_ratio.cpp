@@ -28,6 +28,12 @@ namespace {
 
 constexpr std::array<double, 3> class_bounds_deg{Small_angles::critical_plane_angle_deg, 30, 60};
 constexpr std::array<const char*, 3> class_names{"< 14.48", "< 30", "< 60"};
+constexpr double no_angle = std::numeric_limits<double>::infinity();
+
+/// The class of an angle in degrees; the number of classes for 60 and above.
+std::size_t class_of(double degrees) {
+  return std::size_t(std::ranges::upper_bound(class_bounds_deg, degrees) - class_bounds_deg.begin());
+}
 
 Plain::Point_3 plain(const Epick_domain& domain, Index v) {
   const auto& p = domain.vertices[v];
@@ -65,10 +71,6 @@ using Sharp_classes = std::array<Sharp_features, class_bounds_deg.size()>;
 
 std::unique_ptr<Sharp_classes> sharp_features(const Epick_domain& domain, const Small_angles& angles) {
   auto classes = std::make_unique<Sharp_classes>();
-  const auto class_of = [](double deg) {
-    return std::size_t(std::upper_bound(class_bounds_deg.begin(), class_bounds_deg.end(), deg) -
-                       class_bounds_deg.begin());
-  };
   for (std::size_t v = 0; v < angles.vertex_deg.size(); ++v)
     if (const std::size_t c = class_of(angles.vertex_deg[v]); c < classes->size())
       (*classes)[c].add(plain(domain, Index(v)));
@@ -130,12 +132,13 @@ class Explained_edges {
     });
   }
 
-  bool contains(const P& p, const P& q) const {
+  /// The smallest angle, in degrees, that explains how close p and q are; `no_angle` if none does.
+  double explanation(const P& p, const P& q) const {
     const std::vector<Feature> at_p = features_at(p), at_q = features_at(q);
+    double smallest = no_angle;
     for (const Feature& a : at_p)
-      for (const Feature& b : at_q)
-        if (is_explained(a, p, b, q)) return true;
-    return false;
+      for (const Feature& b : at_q) smallest = std::min(smallest, explanation(a, p, b, q));
+    return smallest;
   }
 
  private:
@@ -160,36 +163,35 @@ class Explained_edges {
     return result;
   }
 
-  bool is_explained(const Feature& a, const P& p, const Feature& b, const P& q) const {
-    if (a.dimension == b.dimension && a.index == b.index) return false;
+  double explanation(const Feature& a, const P& p, const Feature& b, const P& q) const {
+    if (a.dimension == b.dimension && a.index == b.index) return no_angle;
     const auto& facets = domain_.facets;
     const auto bounds = [&](const Feature& s, const Feature& f) {
       return s.dimension == 1 && f.dimension == 2 &&
              std::ranges::binary_search(facets[f.index].segments, s.index);
     };
-    if (bounds(a, b) || bounds(b, a)) return false;
+    if (bounds(a, b) || bounds(b, a)) return no_angle;
     const double length = std::sqrt(squared_distance(p, q));
-    const auto wide_enough = [&](double degrees, double distance) {
-      return degrees < class_bounds_deg.back() &&
-             length * (1 + 1e-6) >= degrees * std::numbers::pi / 360 * distance;
+    double smallest = no_angle;
+    const auto consider = [&](double degrees, double squared_distance) {
+      if (degrees < class_bounds_deg.back() && length * (1 + 1e-6) >= degrees * std::numbers::pi / 360 * std::sqrt(squared_distance))
+        smallest = std::min(smallest, degrees);
     };
     for (const Index v : vertices_of(a))
       if (std::ranges::binary_search(vertices_of(b), v)) {
         const auto& o = domain_.vertices[v];
         const P corner{o.x(), o.y(), o.z()};
-        if (wide_enough(angles_.vertex_deg[v],
-                        std::sqrt(std::min(squared_distance(p, corner), squared_distance(q, corner)))))
-          return true;
+        consider(angles_.vertex_deg[v], std::min(squared_distance(p, corner), squared_distance(q, corner)));
       }
-    if (a.dimension == 1 || b.dimension == 1) return false;
+    if (a.dimension == 1 || b.dimension == 1) return smallest;
     for (const Index s : facets[a.index].segments)
       if (std::ranges::binary_search(facets[b.index].segments, s)) {
         const auto distance = [&](const P& x) {
           return CGAL::squared_distance(Plain::Point_3(x[0], x[1], x[2]), segment_items_[s].shape);
         };
-        if (wide_enough(angles_.segment_deg[s], std::sqrt(std::min(distance(p), distance(q))))) return true;
+        consider(angles_.segment_deg[s], std::min(distance(p), distance(q)));
       }
-    return false;
+    return smallest;
   }
 
   /// Ascending.
@@ -228,16 +230,78 @@ std::pair<double, double> squared_radius_and_edge(const Indexed_mesh_3& mesh, st
   return {squared_circumradius(a, b, c, d), squared_shortest_edge(a, b, c, d)};
 }
 
+/// Who of the tetrahedra above the bound is exempt, by the rule of docs/theory.md, section 11.
+class Exemptions {
+ public:
+  explicit Exemptions(const Epick_domain& domain)
+      : angles_(small_angles_3(domain)), sharp_(sharp_features(domain, angles_)), edges_(domain, angles_) {}
+
+  /// Whether a tetrahedron is exempt, which is counted.
+  bool contains(const std::array<P, 4>& corners, double circumradius) {
+    const auto [p, q] = shortest_edge(corners);
+    if (const double degrees = edges_.explanation(p, q); degrees < no_angle) {
+      ++between_[class_of(degrees)];
+      return true;
+    }
+    const auto [distance, angle] = nearest_angle(corners);
+    if (distance <= reach * circumradius)
+      ++near_[angle];
+    else if (std::ranges::any_of(corners, [&](const P& corner) { return edges_.protects(corner, reach * circumradius); }))
+      ++at_protected_;
+    else
+      return false;
+    return true;
+  }
+
+  std::string figures() const {
+    return text("; shortest edge between what meets at an angle", by_class(between_), "; next to an angle", by_class(near_),
+                at_protected_ > 0 ? text("; next to what is protected: ", at_protected_) : "");
+  }
+
+ private:
+  using Counts = std::array<std::size_t, class_bounds_deg.size()>;
+  /// In circumradii, how far from an angle what is forbidden there may keep a tetrahedron poor. Measured, of 26,332 such tetrahedra on
+  /// 25 models: 64 % are within 1, 90 % within 2, 97.5 % within 3, all within 4.
+  static constexpr double reach = 4;
+
+  static std::string by_class(const Counts& counts) {
+    std::string result;
+    for (std::size_t k = 0; k < counts.size(); ++k) result += text(k > 0 ? ", " : " ", class_names[k], ": ", counts[k]);
+    return result;
+  }
+
+  /// How far the nearest small angle is from the corners and the centroid, and its class.
+  std::pair<double, std::size_t> nearest_angle(const std::array<P, 4>& corners) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t nearest_class = class_bounds_deg.size();
+    P centroid{0, 0, 0};
+    for (const P& p : corners)
+      for (std::size_t k = 0; k < 3; ++k) centroid[k] += p[k] / 4;
+    for (std::size_t k = 0; k < sharp_->size(); ++k) {
+      if ((*sharp_)[k].size() == 0) continue;
+      const auto consider = [&](const P& p) {
+        const double distance = (*sharp_)[k].squared_distance(Plain::Point_3(p[0], p[1], p[2]));
+        if (distance < nearest) nearest = distance, nearest_class = k;
+      };
+      consider(centroid);
+      std::ranges::for_each(corners, consider);
+    }
+    return {std::sqrt(nearest), nearest_class};
+  }
+
+  Small_angles angles_;
+  std::unique_ptr<Sharp_classes> sharp_;
+  Explained_edges edges_;
+  Counts between_{}, near_{};
+  std::size_t at_protected_ = 0;
+};
+
 }  // namespace
 
 Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, double bound) {
   const double limit = bound * bound * (1 + 2e-9);
   Failures failures;
-  std::array<std::size_t, class_bounds_deg.size()> excused{};
-  std::size_t between = 0;
-  std::optional<Small_angles> angles;
-  std::unique_ptr<Sharp_classes> sharp;
-  std::optional<Explained_edges> explained;
+  std::optional<Exemptions> exempt;
   struct Found {
     double worst = 0;
     std::vector<std::size_t> over;
@@ -257,46 +321,15 @@ Check_line check_ratio(const Indexed_mesh_3& mesh, const Epick_domain* domain, d
         all.worst = std::max(all.worst, part.worst);
         all.over.insert(all.over.end(), part.over.begin(), part.over.end());
       });
+  if (domain != nullptr && !found.over.empty()) exempt.emplace(*domain);
   for (const std::size_t i : found.over) {
     const auto& t = mesh.tetrahedra[i];
-    const P &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
     const auto [rr, ll] = squared_radius_and_edge(mesh, i);
-    if (domain != nullptr && !sharp) {
-      angles = small_angles_3(*domain);
-      sharp = sharp_features(*domain, *angles);
-    }
-    std::size_t nearest_class = class_bounds_deg.size();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; sharp && k < sharp->size(); ++k) {
-      if ((*sharp)[k].size() == 0) continue;
-      double distance = std::numeric_limits<double>::infinity();
-      for (const P& p : {a, b, c, d,
-                         P{(a[0] + b[0] + c[0] + d[0]) / 4, (a[1] + b[1] + c[1] + d[1]) / 4,
-                           (a[2] + b[2] + c[2] + d[2]) / 4}})
-        distance = std::min(distance, (*sharp)[k].squared_distance(Plain::Point_3(p[0], p[1], p[2])));
-      if (distance < nearest) nearest = distance, nearest_class = k;
-    }
-    if (nearest_class < excused.size() && nearest <= 16 * rr) {
-      ++excused[nearest_class];
-      continue;
-    }
-    if (domain != nullptr && !explained) explained.emplace(*domain, *angles);
-    const auto [p, q] = shortest_edge({a, b, c, d});
-    const auto is_protected = [&, reach = 4 * std::sqrt(rr)](const P& corner) { return explained->protects(corner, reach); };
-    if (explained && (explained->contains(p, q) || std::ranges::any_of(std::array{a, b, c, d}, is_protected)))
-      ++between;
-    else
+    if (!exempt || !exempt->contains({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]}, std::sqrt(rr)))
       failures.add("tetrahedron ", i, " has ratio ", std::sqrt(rr / ll), " and no small angle nearby");
   }
-  std::string figures = text("worst ", std::sqrt(found.worst), ", bound ", bound, ", ", found.over.size(),
-                             " tetrahedra over it");
-  if (domain != nullptr) {
-    figures += "; near angles";
-    for (std::size_t k = 0; k < excused.size(); ++k)
-      figures += text(k > 0 ? ", " : " ", class_names[k], ": ", excused[k]);
-    if (between > 0) figures += text("; farther from them, between what meets in them: ", between);
-  }
-  return failures.line("ratio", figures);
+  const std::string figures = text("worst ", std::sqrt(found.worst), ", bound ", bound, ", ", found.over.size(), " tetrahedra over it");
+  return failures.line("ratio", exempt ? figures + exempt->figures() : figures);
 }
 
 }  // namespace pgdr::quality_detail

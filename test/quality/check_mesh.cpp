@@ -140,8 +140,28 @@ TEST_CASE("The ratio bound is checked, and small angles of the input excuse only
   const auto lines = pgdr::check_mesh(one, &wedge_domain);
   INFO(printed(lines));
   REQUIRE(pgdr::all_passed(lines));
-  REQUIRE(lines.back().detail.find("1 tetrahedra over it; near angles < 14.48: 1") != std::string::npos);
+  REQUIRE(lines.back().detail.find("1 tetrahedra over it; shortest edge between what meets at an angle < 14.48: 1, < 30: 0") != std::string::npos);
   REQUIRE(fails(pgdr::check_mesh(one), "ratio"));
+
+  // A regular tetrahedron with circumradius 0.1, which the bound 0.6 makes poor, that ends within and beyond 0.4 from the wedge's edge.
+  const auto beside = [&](double distance) {
+    auto mesh_beside = one;
+    const double h = 0.1 / std::sqrt(3);
+    mesh_beside.points = {{4 + h, h - distance, h}, {4 + h, -h - distance, -h}, {4 - h, h - distance, -h}, {4 - h, -h - distance, h}};
+    return fails(pgdr::check_mesh(mesh_beside, &wedge_domain, {0.6}), "ratio");
+  };
+  REQUIRE_FALSE(beside(0.44));
+  REQUIRE(beside(0.5));  // what is protected there is 0.024 wide
+
+  // Nine circumradii from there, with an edge across the wedge, and across a part of it.
+  const auto across = [&](double part) {
+    auto mesh_across = one;
+    const double l = part * s / 2;
+    mesh_across.points = {{4, 0.5, 0}, {4, 0.5, l}, {4 + l, 0.5, l / 2}, {4 + l / 3, 0.5 + l, l / 2}};
+    return fails(pgdr::check_mesh(mesh_across, &wedge_domain, {0.6}), "ratio");
+  };
+  REQUIRE_FALSE(across(1));
+  REQUIRE(across(0.8));
 }
 
 TEST_CASE("Meshes that are no meshes are refused without harm", "[quality]") {
