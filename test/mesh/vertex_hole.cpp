@@ -52,10 +52,10 @@ TEST_CASE("What fills the hole of a vertex is Delaunay, cospherical points or no
     for (const Vertex_handle v : inner_vertices(tr)) {
       if (!hole.find(v) || !hole.fill()) continue;  // next to the hull
       for (const auto& t : hole.filling()) {
-        const auto p = hole.points_of(t);
         REQUIRE(CGAL::orientation(hole.vertices()[t.corners[0]]->point(), hole.vertices()[t.corners[1]]->point(),
                                   hole.vertices()[t.corners[2]]->point(), hole.vertices()[t.corners[3]]->point()) == CGAL::POSITIVE);
-        REQUIRE(hole.in_conflict(t, Point(p[0].x, p[0].y, p[0].z)) == false);
+        for (std::size_t u = 0; u < hole.vertices().size(); ++u)
+          if (std::ranges::find(t.corners, u) == t.corners.end()) REQUIRE_FALSE(hole.in_conflict(t, hole.vertices()[u]->point()));
       }
       hole.commit();
       tr.tds().delete_vertex(v);

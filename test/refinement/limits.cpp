@@ -8,6 +8,7 @@
 
 #include <pgdr/mesh/scale_mesh.h>
 
+#include "catch.h"
 #include "refined.h"
 
 using namespace pgdr_test;

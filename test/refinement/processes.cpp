@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "catch.h"
 #include "refined.h"
 
 using namespace pgdr_test;

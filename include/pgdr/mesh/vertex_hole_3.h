@@ -96,11 +96,7 @@ class Vertex_hole_3 {
   }
 
   /// Whether the open circumball of a tetrahedron of the filling holds p, as `Mesh_triangulation_3::in_conflict`. Exact.
-  bool in_conflict(const Tetrahedron& t, const Point& p) const {
-    if (t.ball.is_known())
-      if (const int side = t.ball.side(to_vec(p)); side != 0) return side > 0;
-    return tr_->in_ball(point(t.corners[0]), point(t.corners[1]), point(t.corners[2]), point(t.corners[3]), p);
-  }
+  bool in_conflict(const Tetrahedron& t, const Point& p) const { return in_conflict(t.corners, t.ball, to_vec(p), p); }
 
   /// Replaces the star by the filling, after which the vertex has no tetrahedra: it has to be put back with `Cavity_3::commit`, or
   /// deleted. Subdomain, subfacets and subsegments are kept.
@@ -159,6 +155,13 @@ class Vertex_hole_3 {
   };
 
   const Point& point(std::uint8_t k) const { return vertices_[k]->point(); }
+
+  /// `at` is where p is.
+  bool in_conflict(const std::array<std::uint8_t, 4>& corners, const Certified_ball& ball, const Vec_3& at, const Point& p) const {
+    if (ball.is_known())
+      if (const int side = ball.side(at); side != 0) return side > 0;
+    return tr_->in_ball(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3]), p);
+  }
 
   bool collect_star() {
     star_.clear();
@@ -222,25 +225,52 @@ class Vertex_hole_3 {
     return a << 16 | b << 8 | c;
   }
 
-  /// The vertex on the inner side of an open triangle in whose ball with it there is no other.
-  int vertex_behind(const Open& o) const {
-    const auto orientation = tr_->geom_traits().orientation_3_object();
-    const Point* corners[4] = {&point(o.corners[0]), &point(o.corners[1]), &point(o.corners[2]), &point(o.corners[3])};
-    int best = -1;
-    for (std::size_t k = 0; k < vertices_.size(); ++k) {
-      bool is_corner = false;
-      for (int i = 0; i < 4; ++i) is_corner |= i != o.apex && o.corners[static_cast<std::size_t>(i)] == k;
-      if (is_corner) continue;
-      const Point& p = point(static_cast<std::uint8_t>(k));
-      if (best >= 0) {
-        if (!tr_->in_ball(*corners[0], *corners[1], *corners[2], *corners[3], p)) continue;
-      }
-      const Point* before = std::exchange(corners[o.apex], &p);
-      if (orientation(*corners[0], *corners[1], *corners[2], *corners[3]) == CGAL::POSITIVE)
-        best = static_cast<int>(k);
-      else
-        corners[o.apex] = before;
+  static bool is_corner(const Open& o, std::size_t k) {
+    bool is = false;
+    for (int i = 0; i < 4; ++i) is |= i != o.apex && o.corners[static_cast<std::size_t>(i)] == k;
+    return is;
+  }
+
+  /// The vertex that looks like the one behind an open triangle, in doubles: the center of the ball through the triangle and the vertex is
+  /// least far on the inner side.
+  std::size_t guess_behind(const Open& o) const {
+    const auto corner = [&](int i) { return points_[o.corners[static_cast<std::size_t>((o.apex + i) & 3)]]; };
+    const Vec_3 a = corner(1), ab = corner(2) - a, ac = corner(3) - a;
+    const Vec_3 n = (o.apex & 1 ? 1.0 : -1.0) * cross(ab, ac);
+    const double nn = squared_length(n);
+    const Vec_3 center = (0.5 / nn) * (squared_length(ac) * cross(cross(ab, ac), ab) + squared_length(ab) * cross(ac, cross(ab, ac)));
+    const double squared_radius = squared_length(center);
+    std::size_t best = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const Vec_3 u = points_[k] - a - center;
+      const double height = dot(u, n);
+      if (!(height > 0) || is_corner(o, k)) continue;
+      if (const double t = (squared_length(u) - squared_radius) / height; t < nearest) nearest = t, best = k;
     }
+    return best;
+  }
+
+  /// The vertex on the inner side of an open triangle in whose ball with it, which is left in `ball_`, there is no other.
+  int vertex_behind(const Open& o) {
+    const auto orientation = tr_->geom_traits().orientation_3_object();
+    std::array<std::uint8_t, 4> corners = o.corners;
+    const auto apex = static_cast<std::size_t>(o.apex);
+    int best = -1;
+    const auto consider = [&](std::size_t k) {
+      if (is_corner(o, k) || static_cast<int>(k) == best) return;
+      if (best >= 0 && !in_conflict(corners, ball_, points_[k], point(static_cast<std::uint8_t>(k)))) return;
+      const std::uint8_t before = std::exchange(corners[apex], static_cast<std::uint8_t>(k));
+      if (orientation(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3])) != CGAL::POSITIVE) {
+        corners[apex] = before;
+        return;
+      }
+      best = static_cast<int>(k);
+      const Tetrahedron_ball ball = tetrahedron_ball({points_[corners[0]], points_[corners[1]], points_[corners[2]], points_[corners[3]]});
+      ball_.set(ball.center, std::sqrt(ball.squared_radius), ball_error);
+    };
+    consider(guess_behind(o));
+    for (std::size_t k = 0; k < vertices_.size(); ++k) consider(k);
     return best;
   }
 
@@ -264,8 +294,7 @@ class Vertex_hole_3 {
       std::swap(fresh.corners[static_cast<std::size_t>((i + 1) & 3)], fresh.corners[static_cast<std::size_t>((i + 2) & 3)]);
       open_.push_back(fresh);
     }
-    const Tetrahedron_ball ball = tetrahedron_ball(points_of(t));
-    t.ball.set(ball.center, std::sqrt(ball.squared_radius), ball_error);
+    t.ball = ball_;
     filling_.push_back(t);
   }
 
@@ -300,6 +329,7 @@ class Vertex_hole_3 {
   std::vector<Tetrahedron> filling_;
   std::vector<std::int32_t> behind_;
   std::vector<Open> open_;
+  Certified_ball ball_;  ///< of the last `vertex_behind`
 };
 
 }  // namespace pgdr

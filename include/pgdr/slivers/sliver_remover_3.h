@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -40,44 +40,37 @@ class Sliver_remover_3 {
       : wanted_(wanted), quota_(quota), cancel_(cancel), mover_(tr, complex, judge, territory), inserter_(tr, complex, judge, territory) {}
 
   Result run(std::vector<Sliver> slivers) {
-    std::sort(slivers.begin(), slivers.end());
+    sort_along_curve(slivers);
     known_ = std::move(slivers);
-    std::size_t first = 0;
     for (int pass = 0; pass < 2; ++pass) {
-      for (; first < known_.size(); ++first) enqueue(known_[first]);
-      move_queued(first);
+      move_all();
       insert_all();
     }
-    for (; first < known_.size(); ++first) enqueue(known_[first]);
-    move_queued(first);
+    move_all();
     for (const Sliver& s : known_)
       if (s.is_live()) (is_foreign(s) ? result_.foreign : result_.hopeless).push_back(s);
     return std::move(result_);
   }
 
  private:
-  void enqueue(const Sliver& s) {
-    if (!s.is_live()) return;
-    for (int i = 0; i < 4; ++i) {
-      const Vertex_handle v = s.cell->vertex(i);
-      if (v->in_dimension() == 3 && queued_.insert(&*v).second) queue_.push_back(v);
-    }
-  }
-
-  /// `first`: of the known ones that are not queued.
-  void move_queued(std::size_t& first) {
+  /// Moves vertices of the slivers that are known, those made by moves included, a vertex only once for all that are known at the time.
+  void move_all() {
     using Outcome = typename Vertex_mover_3<Tr, Criteria>::Outcome;
-    while (!queue_.empty() && !is_cancelled()) {
-      const Vertex_handle v = queue_.front();
-      queue_.pop_front();
-      queued_.erase(&*v);
-      const Outcome outcome = mover_.improve(v, wanted_);
-      if (outcome == Outcome::foreign) foreign_.insert(&*v);
-      if (outcome != Outcome::moved) continue;
-      ++result_.moved;
-      mover_.for_made([this](Cell_handle c) { note(c); });
-      for (; first < known_.size(); ++first) enqueue(known_[first]);
-    }
+    for (; next_ < known_.size() && !is_cancelled(); ++next_)
+      for (int i = 0; i < 4 && known_[next_].is_live(); ++i) {
+        const Vertex_handle v = known_[next_].cell->vertex(i);
+        if (v->in_dimension() != 3) continue;
+        const auto at = tried_.find(&*v);
+        if (at != tried_.end() && next_ < at->second) continue;
+        const Outcome outcome = mover_.improve(v, wanted_);
+        if (outcome != Outcome::moved) {
+          tried_[&*v] = known_.size();
+          if (outcome == Outcome::foreign) foreign_.insert(&*v);
+          continue;
+        }
+        ++result_.moved;
+        mover_.for_made([this](Cell_handle c) { note(c); });
+      }
   }
 
   void insert_all() {
@@ -107,8 +100,10 @@ class Sliver_remover_3 {
   Vertex_mover_3<Tr, Criteria> mover_;
   Sliver_inserter_3<Tr, Criteria> inserter_;
   std::vector<Sliver> known_;  ///< all that there were, gone or not
-  std::deque<Vertex_handle> queue_;
-  std::unordered_set<const void*> queued_, foreign_;  // asked, never walked through
+  std::size_t next_ = 0;       ///< of these, to be looked at
+  // Asked, never walked through.
+  std::unordered_map<const void*, std::size_t> tried_;  ///< vertices that stayed, and how many slivers were known
+  std::unordered_set<const void*> foreign_;
   Result result_;
 };
 

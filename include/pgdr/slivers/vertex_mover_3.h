@@ -47,10 +47,12 @@ class Vertex_mover_3 {
     if (!hole_.find(v)) return hole_.is_foreign() ? Outcome::foreign : Outcome::stays;
     const double now = measure_star();
     if (now <= wanted || !hole_.fill()) return Outcome::stays;
-    measure_filling(now);
     if (!search(position(v), now, wanted)) return is_foreign_ ? Outcome::foreign : Outcome::stays;
     return move(v) ? Outcome::moved : Outcome::stays;
   }
+
+  /// Whether the last move left no tetrahedron at the vertex above the wanted cosine.
+  bool is_cured() const { return is_cured_; }
 
   /// The tetrahedra made by the last move.
   template <class F>
@@ -61,6 +63,7 @@ class Vertex_mover_3 {
 
  private:
   static constexpr double refused = Tetrahedron_judge<Criteria>::refused;
+  static constexpr double unmeasured = -2;  ///< less than any cosine
 
   double measure_star() {
     double worst = -1;
@@ -88,23 +91,31 @@ class Vertex_mover_3 {
     return ((dot(p[apex] - a, n) < 0 ? -1 : 1) / l) * n;
   }
 
-  void measure_filling(double limit) {
-    filling_cosine_.clear();
-    for (const auto& t : hole_.filling()) filling_cosine_.push_back(judge_(hole_.points_of(t), vertex()->cell()->subdomain(), limit));
+  /// Looks for a place: the first that is good enough, else the best that is better than what there is.
+  bool search(const Vec_3& from, double now, double wanted) {
+    refused_at_ = 0;
+    measured_filling_.assign(hole_.filling().size(), unmeasured);
+    // The tetrahedra that are made have their corners in another order, which is rounded differently.
+    constexpr double rounding = 1e-12;
+    is_cured_ = try_all(from, wanted - rounding, true);
+    if (is_cured_) return true;
+    measured_filling_.assign(hole_.filling().size(), unmeasured);
+    return try_all(from, now, false);
   }
 
-  /// Looks for a place; the first good enough, else the best.
-  bool search(const Vec_3& from, double now, double wanted) {
+  /// Tries places near `from`; true if at one of them no cosine reaches the limit. Ends at the first, or looks for the best one.
+  bool try_all(const Vec_3& from, double limit, bool ends_at_first) {
     // Relative to the shortest edge at the vertex.
-    constexpr double steps[] = {0.12, 0.25, 0.05, 0.4};
-    double best = now;
+    constexpr double steps[] = {0.25, 0.12, 0.05, 0.4};
+    bool is_any = false;
     const auto attempt = [&](const Vec_3& direction, double step) {
       const Vec_3 at = from + (step * shortest_) * direction;
-      const double cosine = worst_at(at, best);
-      if (cosine >= best) return false;
-      best = cosine;
+      const double cosine = worst_at(at, limit);
+      if (cosine >= limit) return false;
+      limit = cosine;
       place_ = at;
-      return cosine <= wanted;
+      is_any = true;
+      return ends_at_first;
     };
     for (const double step : steps)
       for (const double sign : {1.0, -1.0})
@@ -112,7 +123,13 @@ class Vertex_mover_3 {
     for (const double step : steps)
       for (const Vec_3& d : directions)
         if (attempt((1 / length(d)) * d, step)) return true;
-    return best < now;
+    return is_any;
+  }
+
+  /// The cosine in the filling, `refused` if the refinement would not leave it or it reaches the limit, which may only become less.
+  double measured_filling(std::size_t k, double limit) {
+    if (measured_filling_[k] == unmeasured) measured_filling_[k] = judge_(hole_.points_of(hole_.filling()[k]), vertex()->cell()->subdomain(), limit);
+    return measured_filling_[k];
   }
 
   /// The largest cosine of a dihedral angle of what is new with the vertex there; `refused` if that is not below the limit, or one of them
@@ -126,9 +143,10 @@ class Vertex_mover_3 {
     for (std::size_t k = 0; k < filling.size(); ++k) {
       in_conflict_[k] = hole_.in_conflict(filling[k], p);
       is_any |= in_conflict_[k];
-      if (!in_conflict_[k]) worst = std::max(worst, filling_cosine_[k]);
     }
-    if (!is_any || worst >= limit) return refused;
+    if (!is_any) return refused;
+    for (std::size_t k = 0; k < filling.size(); ++k)
+      if (!in_conflict_[k] && (worst = std::max(worst, measured_filling(k, limit))) >= limit) return refused;
     const std::int32_t subdomain = hole_.star().front()->subdomain();
     const auto face = [&](Tetrahedron_points corners, std::size_t i) {
       corners[i] = at;
@@ -143,14 +161,17 @@ class Vertex_mover_3 {
         }
     outside_.clear();
     const auto& star = hole_.star();
-    for (std::size_t k = 0; k < star.size(); ++k) {
+    for (std::size_t m = 0; m < star.size(); ++m) {
+      const std::size_t k = (refused_at_ + m) % star.size();
       if (!in_conflict_[static_cast<std::size_t>(hole_.filling_behind(k))]) continue;
       const int i = hole_.apex(k);
       switch (look_at(star[k], i, p)) {
         case Beyond::in_conflict: break;
         case Beyond::refused: return refused;
         case Beyond::boundary:
-          if (!face(tetrahedron_points(star[k]), static_cast<std::size_t>(i))) return refused;
+          if (face(tetrahedron_points(star[k]), static_cast<std::size_t>(i))) break;
+          refused_at_ = k;
+          return refused;
       }
     }
     for (std::size_t m = 0; m < outside_.size(); ++m) {
@@ -224,10 +245,11 @@ class Vertex_mover_3 {
   Cavity_features_3<Tr> features_;
   double shortest_ = 0;
   Vec_3 steepest_;
+  std::size_t refused_at_ = 0;  ///< in the star, where the last place was: likely the next one, too
   Vec_3 place_;
   double nearest_ = 0;
-  bool is_foreign_ = false;
-  std::vector<double> filling_cosine_;
+  bool is_foreign_ = false, is_cured_ = false;
+  std::vector<double> measured_filling_;
   std::vector<std::uint8_t> in_conflict_;
   std::vector<Cell_handle> outside_;
   std::vector<Cell_handle> filling_made_;
