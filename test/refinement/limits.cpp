@@ -7,8 +7,10 @@
 #include <vector>
 
 #include <pgdr/mesh/scale_mesh.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
 
 #include "catch.h"
+#include "domain/shapes.h"
 #include "refined.h"
 
 using namespace pgdr_test;
@@ -85,7 +87,7 @@ TEST_CASE("What a stop leaves is listed as unrefined, all of it and nothing else
     std::size_t poor = 0, found = 0;
     for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
       const auto& t = mesh.tetrahedra[i];
-      const auto ball = pgdr::tetrahedron_ball({pgdr::to_vec(mesh.points[t[0]]), pgdr::to_vec(mesh.points[t[1]]),
+      const auto ball = pgdr::tetrahedron_ball(pgdr::Tetrahedron_points{pgdr::to_vec(mesh.points[t[0]]), pgdr::to_vec(mesh.points[t[1]]),
                                                 pgdr::to_vec(mesh.points[t[2]]), pgdr::to_vec(mesh.points[t[3]])});
       const bool is_poor = ball.squared_radius > size * size || ball.squared_radius > 4 * ball.squared_shortest;
       poor += is_poor;
