@@ -26,6 +26,7 @@ struct Check_arguments {
   std::string mesh;
   std::vector<std::string> inputs;
   std::string radius_edge_ratio;
+  std::string min_dihedral;
   std::string threads;
   Domain_options domain;
 };
@@ -34,6 +35,7 @@ int run_check(const Check_arguments& arguments) {
   Check_options options;
   if (!arguments.radius_edge_ratio.empty())
     options.radius_edge_ratio = parse_positive("--radius-edge-ratio", arguments.radius_edge_ratio);
+  if (!arguments.min_dihedral.empty()) options.min_dihedral_deg = parse_dihedral_angle("--min-dihedral", arguments.min_dihedral);
   arguments.domain.check();  // nonsense is refused even where it is not needed
   require_extension("MESH", arguments.mesh, {".mesh"});
 
@@ -78,6 +80,10 @@ Command add_check_command(CLI::App& program) {
       ->add_option("--radius-edge-ratio", arguments->radius_edge_ratio,
                    "Bound of circumradius over shortest edge to verify (default 2)")
       ->type_name("B");
+  parser
+      ->add_option("--min-dihedral", arguments->min_dihedral,
+                   "Verify that no dihedral angle is smaller, in degrees, but next to small angles of the input")
+      ->type_name("A");
   parser
       ->add_option("--threads", arguments->threads,
                    "Number of threads (default and 0: one per core); the result is the same for all")

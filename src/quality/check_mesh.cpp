@@ -39,7 +39,7 @@ std::vector<Check_line> check_mesh(const Indexed_mesh_3& mesh, const Domain_3<De
   }  // the face table goes before the reference triangulation comes
   lines.push_back(q::check_delaunay(mesh));
   std::move(domain_lines.begin(), domain_lines.end(), std::back_inserter(lines));
-  lines.push_back(q::check_ratio(mesh, domain, options.radius_edge_ratio));
+  for (auto& line : q::check_shapes(mesh, domain, options)) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/quality/check_mesh.h>
+#include <pgdr/quality/mesh_quality.h>
 
 #include <pgdr/domain/make_domain_3.h>
 
@@ -142,6 +143,13 @@ TEST_CASE("The ratio bound is checked, and small angles of the input excuse only
   REQUIRE(pgdr::all_passed(lines));
   REQUIRE(lines.back().detail.find("1 tetrahedra over it; shortest edge between what meets at an angle < 14.48: 1, < 30: 0") != std::string::npos);
   REQUIRE(fails(pgdr::check_mesh(one), "ratio"));
+
+  // Its dihedral angles, and those of the lattice's tetrahedra.
+  const double smallest = pgdr::mesh_quality(mesh).min_dihedral_deg;
+  REQUIRE(pgdr::all_passed(pgdr::check_mesh(one, &wedge_domain, {2, 14})));
+  REQUIRE(fails(pgdr::check_mesh(one, nullptr, {2, 14}), "dihedral angle"));
+  REQUIRE(fails(pgdr::check_mesh(mesh, &domain, {2, smallest + 0.1}), "dihedral angle"));
+  REQUIRE_FALSE(fails(pgdr::check_mesh(mesh, &domain, {2, smallest - 0.1}), "dihedral angle"));
 
   // A regular tetrahedron with circumradius 0.1, which the bound 0.6 makes poor, that ends within and beyond 0.4 from the wedge's edge.
   const auto beside = [&](double distance) {

@@ -11,6 +11,7 @@
 #include <tbb/task_arena.h>
 
 #include "catch.h"
+#include "domain/shapes.h"
 #include "refined.h"
 
 using namespace pgdr_test;

@@ -22,6 +22,8 @@ struct Check_line {
 struct Check_options {
   /// Bound of circumradius over shortest edge; exceeding it by up to 1e-9 of its value is forgiven.
   double radius_edge_ratio = 2;
+  /// No dihedral angle is to be smaller, in degrees, but for what small angles of the input excuse; 0: any may.
+  double min_dihedral_deg = 0;
   /// Larger meshes are refused: the faces of tetrahedra are numbered with 32 bits.
   std::size_t most_tetrahedra = (std::size_t{1} << 30) - 1;
 };
@@ -60,6 +62,7 @@ struct Check_options {
 ///   less than 60 degrees, or of the ball around such a vertex that is kept clear (a quarter of the shortest
 ///   segment there), or where its shortest edge joins two features that meet there, as close to each
 ///   other as the angle makes them: a needle is a small angle from end to end.
+/// - `dihedral angle`, if one is asked for: none is smaller, with the same exceptions.
 ///
 /// Never throws for a bad mesh. `domain`: null, or the input that the mesh was made from.
 std::vector<Check_line> check_mesh(const Indexed_mesh_3& mesh,
