@@ -71,19 +71,21 @@ class Sliver_inserter_3 {
     const std::int32_t subdomain = c->subdomain();
     const Point p(at.x, at.y, at.z);
     if (!cavity_.find(p, c, [subdomain](Cell_handle d) { return d->subdomain() == subdomain; })) return refused;
-    double worst = is_spaced(at) ? -1 : refused;
+    double worst = -1;
     for (std::size_t k = 0; k < cavity_.boundary().size() && worst < limit; ++k) {
       const auto& [d, i] = cavity_.boundary()[k];
       Tetrahedron_points corners = tetrahedron_points(d);
       corners[static_cast<std::size_t>(i)] = at;
       worst = std::max(worst, judge_(corners, subdomain, limit));
     }
-    if (worst < limit) {
+    if (worst < limit && is_spaced(at)) {
       features_.gather(complex_, cavity_);
       if (features_.deletes_any()) worst = refused;
+    } else {
+      worst = refused;
     }
     cavity_.abandon();
-    return worst < limit ? worst : refused;
+    return worst;
   }
 
   bool is_spaced(const Vec_3& at) const {

@@ -74,9 +74,9 @@ class Sliver_remover_3 {
   }
 
   void insert_all() {
-    for (std::size_t k = 0; k < known_.size() && result_.added < quota_ && !is_cancelled(); ++k) {
-      if (!known_[k].is_live()) continue;
-      if (!inserter_.insert(known_[k].cell, known_[k].cosine, wanted_)) continue;
+    for (; filled_ < known_.size() && result_.added < quota_ && !is_cancelled(); ++filled_) {
+      const Sliver s = known_[filled_];
+      if (!s.is_live() || !inserter_.insert(s.cell, s.cosine, wanted_)) continue;
       ++result_.added;
       for (const Cell_handle c : inserter_.star()) note(c);
     }
@@ -100,7 +100,8 @@ class Sliver_remover_3 {
   Vertex_mover_3<Tr, Criteria> mover_;
   Sliver_inserter_3<Tr, Criteria> inserter_;
   std::vector<Sliver> known_;  ///< all that there were, gone or not
-  std::size_t next_ = 0;       ///< of these, to be looked at
+  std::size_t next_ = 0;       ///< of these, to be looked at for moves
+  std::size_t filled_ = 0;     ///< of these, to be looked at for insertions
   // Asked, never walked through.
   std::unordered_map<const void*, std::size_t> tried_;  ///< vertices that stayed, and how many slivers were known
   std::unordered_set<const void*> foreign_;
