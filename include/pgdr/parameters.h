@@ -11,7 +11,7 @@ namespace pgdr {
 
 /// What the refinement tells about itself while it runs; the same calls come in the same order in every run.
 struct Progress {
-  const char* phase = "";        ///< "conforming" or "refinement"
+  const char* phase = "";        ///< "conforming", "refinement" or "removing slivers"
   std::size_t vertices = 0;      ///< of the triangulation, the box included
   std::size_t pending = 0;       ///< elements that wait to be looked at
 };

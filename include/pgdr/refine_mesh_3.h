@@ -112,11 +112,14 @@ class Mesher_3 {
 
   void remove_slivers(const Criteria& criteria) {
     Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_, placement_);
+    const auto notify = [this](std::size_t slivers) {
+      if (parameters_.progress) parameters_.progress({"removing slivers", mesh_.triangulation().number_of_vertices(), slivers});
+    };
     with_threads(parameters_.threads, [&] {
       mesh_.statistics().slivers =
           Sliver_removal_3<Tr, Criteria, Engine>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_,
                                                  cosine_of_degrees(parameters_.min_dihedral), engine, parameters_.vertex_limit(), parameters_.cancel)
-              .run();
+              .run(notify);
     });
     if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = reason_of(watch_.reached());
   }

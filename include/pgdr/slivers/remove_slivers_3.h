@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -38,12 +39,14 @@ class Sliver_removal_3 {
       : tr_(tr), complex_(complex), judge_(criteria, min_edge_length), wanted_(wanted), engine_(engine), most_vertices_(most_vertices),
         cancel_(cancel) {}
 
-  Sliver_statistics run() {
+  /// `notify`: told before every round how many slivers are to be looked at.
+  Sliver_statistics run(const std::function<void(std::size_t)>& notify = {}) {
     std::vector<Sliver> slivers = find_slivers();
     statistics_.found = slivers.size();
     Feature_sliver_remover_3<Tr, Criteria, Engine> on_features(tr_, complex_, judge_, wanted_, engine_, quota(), cancel_);
     for (int pass = 0; pass < most_passes; ++pass) {
       for (std::size_t round = 0; !slivers.empty() && !is_cancelled(); ++round) {
+        if (notify) notify(slivers.size());
         const std::size_t n = round < most_rounds ? territory_count(slivers.size(), 0) : 0;
         slivers = n == 0 ? alone(std::move(slivers)) : divided(std::move(slivers), n, round);
         if (n == 0) break;
