@@ -30,12 +30,12 @@ struct Beyond {
   std::vector<std::size_t> tetrahedra;
 };
 
-/// `badness`: of a tetrahedron, a number that is the greater the worse it is; `none`: less than all of them.
-Beyond beyond(const Indexed_mesh_3& mesh, double limit, double none, const auto& badness) {
+/// `badness`: of a tetrahedron, a number that is the greater the worse it is; `least`: less than all of them.
+Beyond beyond(const Indexed_mesh_3& mesh, double limit, double least, const auto& badness) {
   return parallel_reduce(
-      mesh.tetrahedra.size(), default_grain, Beyond{none, {}},
+      mesh.tetrahedra.size(), default_grain, Beyond{least, {}},
       [&](std::size_t first, std::size_t last) {
-        Beyond part{none, {}};
+        Beyond part{least, {}};
         for (std::size_t i = first; i < last; ++i) {
           const double value = badness(corners_of(mesh, i));
           part.worst = std::max(part.worst, value);

@@ -273,7 +273,7 @@ bool Excused::add(const Small_angle_rule::Verdict& verdict) {
   if (verdict.excuse == Case::edge) ++between_[verdict.angle];
   if (verdict.excuse == Case::near) ++near_[verdict.angle];
   if (verdict.excuse == Case::protected_place) ++at_protected_;
-  return verdict.excuse != Case::none;
+  return verdict.excuse != Case::unexcused;
 }
 
 std::string Excused::figures() const {

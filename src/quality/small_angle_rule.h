@@ -16,11 +16,11 @@ namespace pgdr::quality_detail {
 /// Which tetrahedra small angles of the input excuse from a bound, by those angles alone: the rule of docs/theory.md, section 11.
 class Small_angle_rule {
  public:
-  enum class Case { none, edge, near, protected_place };
+  enum class Case { unexcused, edge, near, protected_place };
   /// Angles below 14.48 degrees, 30 and 60.
   static constexpr std::size_t classes = 3;
   struct Verdict {
-    Case excuse = Case::none;
+    Case excuse = Case::unexcused;
     std::size_t angle = 0;  ///< its class, of the first two cases
   };
 
@@ -37,7 +37,7 @@ class Small_angle_rule {
 /// How many were excused, and why.
 class Excused {
  public:
-  /// False if it is none.
+  /// False if it was not excused.
   bool add(const Small_angle_rule::Verdict& verdict);
   std::string figures() const;
 
