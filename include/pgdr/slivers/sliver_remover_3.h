@@ -69,7 +69,7 @@ class Sliver_remover_3 {
           continue;
         }
         ++result_.moved;
-        mover_.for_made([this](Cell_handle c) { note(c); });
+        if (!mover_.is_cured()) mover_.for_made([this](Cell_handle c) { note(c); });
       }
   }
 
