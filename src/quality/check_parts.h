@@ -66,8 +66,7 @@ Check_line check_edges(const Indexed_mesh_3& mesh);
 Check_line check_overlap(const Indexed_mesh_3& mesh, const Face_table& faces);
 Check_line check_delaunay(const Indexed_mesh_3& mesh);
 
-/// `domain` may be null: then nothing excuses a tetrahedron over the bound.
-/// `ratio`, and `dihedral angle` if a smallest one is asked for.
+/// `ratio`, and `dihedral angle` if a smallest one is asked for. `domain` may be null: then nothing excuses a tetrahedron beyond a bound.
 std::vector<Check_line> check_shapes(const Indexed_mesh_3& mesh, const Epick_domain* domain, const Check_options& options);
 
 // With a domain.

@@ -24,7 +24,7 @@ std::array<P, 4> corners_of(const Indexed_mesh_3& mesh, std::size_t i) {
   return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]};
 }
 
-/// Of all tetrahedra the worst value, and which ones are beyond the limit: those that `is_beyond`, which is told their value.
+/// The worst value of all tetrahedra, and which ones are beyond the limit.
 struct Beyond {
   double worst = 0;
   std::vector<std::size_t> tetrahedra;
@@ -49,15 +49,15 @@ Beyond beyond(const Indexed_mesh_3& mesh, double limit, double least, const auto
       });
 }
 
-/// A line that passes if the rule, where there is one, excuses all that are beyond the limit. `describe` says what is wrong with one.
+/// A line that passes if the rule, where there is one, excuses all that are beyond the limit. A failure tells the `value` of one, between two texts.
 Check_line judged(const std::string& property, const std::string& figures, const Indexed_mesh_3& mesh, const Small_angle_rule* rule,
-                  const std::vector<std::size_t>& tetrahedra, const auto& describe) {
+                  const std::vector<std::size_t>& tetrahedra, const char* what, const auto& value, const char* unit) {
   Failures failures;
   Excused excused;
   for (const std::size_t i : tetrahedra) {
     const auto c = corners_of(mesh, i);
     if (!rule || !excused.add((*rule)(c, std::sqrt(squared_circumradius(c[0], c[1], c[2], c[3])))))
-      failures.add("tetrahedron ", i, " has ", describe(c), " and no small angle nearby");
+      failures.add("tetrahedron ", i, " has ", what, value(c), unit, " and no small angle nearby");
   }
   return failures.line(property, rule ? figures + excused.figures() : figures);
 }
@@ -80,11 +80,11 @@ std::vector<Check_line> check_shapes(const Indexed_mesh_3& mesh, const Epick_dom
   const Small_angle_rule* const used = rule ? &*rule : nullptr;
   std::vector<Check_line> lines;
   lines.push_back(judged("ratio", text("worst ", std::sqrt(poor.worst), ", bound ", bound, ", ", poor.tetrahedra.size(), " tetrahedra over it"),
-                         mesh, used, poor.tetrahedra, [&](const auto& c) { return text("ratio ", std::sqrt(squared_ratio(c))); }));
+                         mesh, used, poor.tetrahedra, "ratio ", [](const auto& c) { return radius_edge_ratio(c[0], c[1], c[2], c[3]); }, ""));
   if (angle > 0)
     lines.push_back(judged("dihedral angle",
                            text("smallest ", -flat.worst, " degrees, bound ", angle, ", ", flat.tetrahedra.size(), " tetrahedra below it"), mesh,
-                           used, flat.tetrahedra, [&](const auto& c) { return text("a dihedral angle of ", smallest_angle(c), " degrees"); }));
+                           used, flat.tetrahedra, "a dihedral angle of ", smallest_angle, " degrees"));
   return lines;
 }
 

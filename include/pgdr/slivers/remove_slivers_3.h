@@ -98,8 +98,7 @@ class Sliver_removal_3 {
     constexpr std::array<double, most_rounds> shares{0.5, 0.4, 0.6};
     std::vector<Territory_map::Item> sample;
     for (const Sliver& s : slivers) {
-      const Tetrahedron_points p = tetrahedron_points(s.cell);
-      const Vec_3 center = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+      const Vec_3 center = s.center();
       sample.push_back({center, {center, center}});
     }
     mark_territories(tr_, Territory_map(std::move(sample), n, shares[round]));

@@ -26,6 +26,12 @@ struct Sliver_3 {
   static Sliver_3 of(typename Tr::Cell_handle c, double cosine) { return {c, c->generation(), cosine}; }
   bool is_live() const { return cell->generation() == generation; }
 
+  /// \pre it is live
+  Vec_3 center() const {
+    const Tetrahedron_points p = tetrahedron_points(cell);
+    return 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  }
+
   /// The flattest first; equal ones by their places, since cells come in an order that timing decides. \pre they are live
   friend bool operator<(const Sliver_3& a, const Sliver_3& b) {
     return a.cosine != b.cosine ? a.cosine > b.cosine : a.key() < b.key();
@@ -43,8 +49,8 @@ struct Sliver_3 {
   }
 };
 
-/// Sorts slivers so that neighbors in space are neighbors in memory: along a Morton curve through the box around them. In place of the flattest
-/// first it takes a sixth of the time of their removal on a cube. \pre they are live
+/// Sorts slivers so that neighbors in space are neighbors in memory: along a Morton curve through the box around them. The flattest
+/// first takes a fifth more time on a cube. \pre they are live
 template <class Tr>
 void sort_along_curve(std::vector<Sliver_3<Tr>>& slivers) {
   struct Item {
@@ -57,8 +63,7 @@ void sort_along_curve(std::vector<Sliver_3<Tr>>& slivers) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec_3 lower{infinity, infinity, infinity}, upper = -1.0 * lower;
   for (const Sliver_3<Tr>& s : slivers) {
-    const Tetrahedron_points p = tetrahedron_points(s.cell);
-    const Vec_3 center = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+    const Vec_3 center = s.center();
     for (int k = 0; k < 3; ++k) {
       lower[k] = std::min(lower[k], center[k]);
       upper[k] = std::max(upper[k], center[k]);
