@@ -129,8 +129,8 @@ Point_placement parse_placement(const std::string& text) {
   if (text == "circumcenter") return Point_placement::circumcenter;
   if (text == "type1") return Point_placement::type1;
   if (text == "type2") return Point_placement::type2;
-  if (text == "best-dihedral") return Point_placement::best_dihedral;
-  throw Usage_error("--placement must be circumcenter, type1, type2 or best-dihedral, not '" + text + "'");
+  if (text == "lazy") return Point_placement::lazy;
+  throw Usage_error("--placement must be lazy, circumcenter, type1 or type2, not '" + text + "'");
 }
 
 std::array<double, 3> parse_point(const std::string& option, const std::string& text) {

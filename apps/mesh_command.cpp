@@ -89,12 +89,12 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       ->type_name("B");
   parser
       .add_option("--placement", arguments.placement,
-                  "Where new points go: circumcenter (default), type1 or type2 (towards short edges), best-dihedral "
-                  "(three times slower, nearly no slivers)")
+                  "Where new points go: lazy (default: the circumcenter, or near it where that leaves an angle below --min-dihedral), "
+                  "circumcenter, type1 or type2 (towards short edges)")
       ->type_name("POLICY");
   parser
       .add_option("--min-dihedral", arguments.min_dihedral,
-                  "Move vertices, and add a few, until no dihedral angle is below this one, in degrees, as far as that gets (default 0: do not)")
+                  "Choose, move and add vertices until no dihedral angle is below this one, in degrees, as far as that gets (default 12; 0: do not)")
       ->type_name("A");
   arguments.domain.add_to(parser);
   add_problems_option(parser, arguments.problems);

@@ -6,12 +6,12 @@ All of them mesh the unit cube with about 6.4 million tetrahedra and write Medit
 Gmsh's HXT (C. Marot et al., 2019) and CGAL's Mesh_3 on two threads, and TetGen (H. Si, 2015), which knows one. What is
 not installed is skipped with a message. The runs take turns, so that a change of the machine's mood meets all of them;
 the table shows medians. The sizes below were found by trial so that the counts agree to 3 %; a count that does not is
-reported.
+reported. None of them removes slivers here; bench/quality.py compares those who do.
 
 TetGen 1.5 is told to write nothing but the .mesh file (-NEF), with the triangles of the boundary alone; that favours
 it. The file's header then still announces all triangles, a mistake of that version.
 
-Needs: cmake --build build/release --target pgdr-app bench_mesh_3_cube; Debian's packages gmsh and tetgen.
+Needs: cmake --build build/release --target pgdr-app bench_mesh_3_peer; Debian's packages gmsh and tetgen.
 """
 
 import argparse
@@ -29,6 +29,31 @@ Point(1) = {0, 0, 0};
 line[] = Extrude {1, 0, 0} { Point{1}; };
 square[] = Extrude {0, 1, 0} { Curve{line[1]}; };
 cube[] = Extrude {0, 0, 1} { Surface{square[1]}; };
+"""
+
+# The same for Mesh_3, which reads surfaces of triangles.
+CUBE_OFF = """OFF
+8 12 0
+0 0 0
+1 0 0
+0 1 0
+1 1 0
+0 0 1
+1 0 1
+0 1 1
+1 1 1
+3 0 2 3
+3 0 3 1
+3 4 5 7
+3 4 7 6
+3 0 1 5
+3 0 5 4
+3 2 6 7
+3 2 7 3
+3 0 4 6
+3 0 6 2
+3 1 3 7
+3 1 7 5
 """
 
 # Option, and the number of tetrahedra that it gave: pgdr 0.1, Gmsh 4.8.4, CGAL 5.5.1, TetGen 1.5.0 (Debian 12).
@@ -52,11 +77,11 @@ class Peer(NamedTuple):
 
 
 def peers(arguments):
-    """What to run, by the name that --only takes. Every command runs in a folder that holds cube.poly and cube.geo."""
+    """What to run, by the name that --only takes. Every command runs in a folder that holds cube.poly, cube.off and cube.geo."""
     build = "cmake --build build/release --target "
     ours = {
         f"pgdr-{n}": Peer(f"pgdr, {n} thread{'s' * (n > 1)}", arguments.pgdr,
-                          lambda path, n=n: [path, "mesh", "cube.poly", "--size", arguments.pgdr_size,
+                          lambda path, n=n: [path, "mesh", "cube.poly", "--size", arguments.pgdr_size, "--min-dihedral", "0",
                                              "--threads", str(n), "--quiet", "-o", "pgdr.mesh"],
                           "pgdr.mesh", build + "pgdr-app")
         for n in (1, 2)
@@ -67,8 +92,8 @@ def peers(arguments):
                                    "-format", "mesh", "-o", "gmsh.mesh", "cube.geo"],
                      "gmsh.mesh", "package gmsh"),
         "mesh-3": Peer("CGAL Mesh_3, 2 threads", arguments.mesh_3,
-                       lambda path: [path, arguments.mesh_3_size, "mesh_3.mesh", "2"],
-                       "mesh_3.mesh", build + "bench_mesh_3_cube"),
+                       lambda path: [path, "cube.off", arguments.mesh_3_size, "mesh_3.mesh", "2"],
+                       "mesh_3.mesh", build + "bench_mesh_3_peer"),
         "tetgen": Peer("TetGen, 1 thread", arguments.tetgen,
                        lambda path: [path, f"-pq2.0a{arguments.tetgen_volume}gNEFQ", "cube.poly"],
                        "cube.1.mesh", "package tetgen"),
@@ -90,7 +115,7 @@ def parse(words):
     parser.add_argument("--repetitions", type=int, default=3, metavar="N", help="default 3")
     parser.add_argument("--only", metavar="NAME,NAME", help="some of pgdr-1, pgdr-2, gmsh, mesh-3, tetgen")
     parser.add_argument("--pgdr", default=str(ROOT / "build/release/pgdr"), metavar="PROGRAM")
-    parser.add_argument("--mesh-3", default=str(ROOT / "build/release/bench/mesh_3_cube"), metavar="PROGRAM")
+    parser.add_argument("--mesh-3", default=str(ROOT / "build/release/bench/mesh_3_peer"), metavar="PROGRAM")
     parser.add_argument("--gmsh", default="gmsh", metavar="PROGRAM")
     parser.add_argument("--tetgen", default="tetgen", metavar="PROGRAM")
     for option, (value, count, meaning) in SIZES.items():
@@ -125,6 +150,7 @@ def main(words):
     with tempfile.TemporaryDirectory(prefix="pgdr-peers-") as folder:
         shutil.copy(ROOT / "data/cube.poly", folder)
         (Path(folder) / "cube.geo").write_text(CUBE_GEO, encoding="utf-8")
+        (Path(folder) / "cube.off").write_text(CUBE_OFF, encoding="utf-8")
         for repetition in range(arguments.repetitions):
             for name in list(programs):
                 peer = chosen[name]

@@ -56,8 +56,8 @@ def measure(case, arguments):
     with tempfile.TemporaryDirectory(prefix="pgdr-scaling-") as folder:
         for repetition in range(arguments.repetitions):
             for n in arguments.threads:
-                timed([str(Path(arguments.pgdr).resolve()), "mesh", str(ROOT / "data" / source), *options,
-                       *arguments.option, "--threads", str(n), "--quiet", "--stats", "stats.json", "-o", "out.mesh"],
+                timed([str(Path(arguments.pgdr).resolve()), "mesh", str(ROOT / "data" / source), "--min-dihedral", "0",
+                       *options, *arguments.option, "--threads", str(n), "--quiet", "--stats", "stats.json", "-o", "out.mesh"],
                       folder)
                 stats = json.loads((Path(folder) / "stats.json").read_text(encoding="utf-8"))
                 runs[n].append(stats)

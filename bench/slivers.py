@@ -31,7 +31,7 @@ def run(pgdr, model, how, limit, folder):
 
 
 def row(pgdr, model, angle, how, limit, folder):
-    before, trouble = run(pgdr, model, how, limit, folder)
+    before, trouble = run(pgdr, model, [*how, "--min-dihedral", "0"], limit, folder)
     if before is None:
         return [model.stem, trouble] + [""] * 6
     after, trouble = run(pgdr, model, [*how, "--min-dihedral", angle], limit, folder)
@@ -53,7 +53,7 @@ def row(pgdr, model, angle, how, limit, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="+", type=lambda p: Path(p).resolve())
-    parser.add_argument("--angle", default="14")
+    parser.add_argument("--angle", default="12")
     parser.add_argument("--pgdr", type=lambda p: Path(p).resolve(), default=ROOT / "build" / "release" / "pgdr")
     parser.add_argument("--limit", type=float, default=120)
     parser.add_argument("--threads", default="2")

@@ -121,7 +121,13 @@ class Mesher_3 {
                                                  cosine_of_degrees(parameters_.min_dihedral), engine, parameters_.vertex_limit(), parameters_.cancel)
               .run(notify);
     });
-    if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = reason_of(watch_.reached());
+    const std::size_t left = mesh_.statistics().slivers.left;
+    if (left > 0 && parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed))
+      reason_ = reason_of(watch_.reached());
+    else if (left > 0 && mesh_.triangulation().number_of_vertices() >= parameters_.vertex_limit())
+      reason_ = Stop_reason::vertex_budget;
+    if (reason_ != Stop_reason::finished) mesh_.statistics().stop_message = "; " + counted(left, "sliver is", "slivers are") + " left";
+    if (limited_ > 0) limited_ = count_limited();
   }
 
   /// Asked before every insertion while conforming.
@@ -183,11 +189,11 @@ class Mesher_3 {
                        (is_box(mesh_.domain()) ? 0 : 8);
     if (reason_ == Stop_reason::finished && (s.unrecovered > 0 || limited_ > 0)) reason_ = Stop_reason::min_edge_length;
     s.stop = reason_;
-    std::string lost =
-        s.unrecovered == 0 ? "" : "; " + std::to_string(s.unrecovered) + " pieces of the input are not in the mesh";
+    std::string lost = std::move(s.stop_message);
+    if (s.unrecovered > 0) lost += "; " + std::to_string(s.unrecovered) + " pieces of the input are not in the mesh";
     if (s.volumes_left_out > 0) lost += "; " + counted(s.volumes_left_out, "volume is", "volumes are") + " not closed yet, and left out";
     switch (reason_) {
-      case Stop_reason::finished: break;
+      case Stop_reason::finished: s.stop_message.clear(); break;
       case Stop_reason::vertex_budget:
         s.stop_message = "stopped at the limit of " + std::to_string(parameters_.vertex_limit()) + " vertices" + lost;
         break;
@@ -256,7 +262,8 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
 template <class K, class Sizing>
   requires SizingField<Sizing, K>
 Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters = {}) {
-  return refine_mesh_3(std::move(domain), sizing, parameters, Standard_placement{parameters.placement});
+  return refine_mesh_3(std::move(domain), sizing, parameters,
+                       Standard_placement{parameters.placement, {cosine_of_degrees(parameters.min_dihedral)}});
 }
 
 /// The same from a PLC as the user wrote it. Throws `Input_error` with every problem that is found in it; where these are only

@@ -46,8 +46,8 @@ TEST_CASE("placements on the command line", "[apps]") {
   CHECK(app::parse_placement("circumcenter") == pgdr::Point_placement::circumcenter);
   CHECK(app::parse_placement("type1") == pgdr::Point_placement::type1);
   CHECK(app::parse_placement("type2") == pgdr::Point_placement::type2);
-  CHECK(app::parse_placement("best-dihedral") == pgdr::Point_placement::best_dihedral);
-  for (const char* text : {"", "Type1", "best_dihedral", "center"})
+  CHECK(app::parse_placement("lazy") == pgdr::Point_placement::lazy);
+  for (const char* text : {"", "Type1", "best-dihedral", "center"})
     CHECK_THROWS_AS(app::parse_placement(text), app::Usage_error);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bench/scaling.py and bench/peers.py, run with programs that only pretend to make meshes."""
+"""bench/scaling.py and bench/peers.py, run with programs that only pretend to make meshes, and the angles of bench/quality.py."""
 
 import pathlib
 import subprocess
@@ -42,7 +42,25 @@ def check(script, words, exit_code, expected):
     return run.stdout
 
 
+def check_angles():
+    """Of the regular tetrahedron, the corner of a cube, and a flat one, where NumPy and meshio are installed."""
+    sys.path.insert(0, str(ROOT / "bench"))
+    try:
+        import numpy
+        from quality import dihedral_angles
+    except ImportError as error:
+        print(f"left out: {error}")
+        return
+    corners = numpy.array([[[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                           [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]], dtype=float)
+    found = numpy.sort(dihedral_angles(corners), axis=1)
+    wanted = [[70.5287794] * 6, [54.7356103] * 3 + [90] * 3, [0] * 4 + [180] * 2]
+    if not numpy.allclose(found, wanted):
+        failures.append(f"quality.py: angles {found}")
+
+
 def main():
+    check_angles()
     with tempfile.TemporaryDirectory() as folder:
         same = pretender(folder, "same")
         differs = pretender(folder, "differs", checksum="checksum-T")

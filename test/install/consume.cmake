@@ -14,6 +14,11 @@ if(WAY STREQUAL "find_package")
   set(where -D CMAKE_PREFIX_PATH=${prefix})
 else()
   set(where -D PGDR_SUBDIRECTORY=${SOURCE_DIR} -D PGDR_SANITIZE=${SANITIZE} -D PGDR_UNITY=${UNITY})
+  # Compiles the whole library again: out of the compiler's cache, or else at least not optimized.
+  if(NOT LAUNCHER OR DEFINED ENV{CCACHE_DISABLE})
+    string(TOUPPER "${BUILD_TYPE}" type)
+    list(APPEND where -D CMAKE_CXX_FLAGS_${type}=-O0)
+  endif()
 endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${build} -G ${GENERATOR}
   -D CMAKE_BUILD_TYPE=${BUILD_TYPE}

@@ -93,7 +93,7 @@ TEST_CASE("Every shape is refined to the promised quality", "[refinement]") {
         CHECK(seconds >= 0);
       }
       CHECK(phases == std::vector<std::string>{"triangulation", "conforming", "labelling", "refinement",
-                                               "verification"});
+                                               "slivers", "verification"});
     }
 }
 

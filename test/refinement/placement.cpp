@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/io/read_plc.h>
 
 #include "catch.h"
@@ -19,14 +20,15 @@ using pgdr::Point_placement;
 
 namespace {
 
-constexpr Point_placement policies[] = {Point_placement::circumcenter, Point_placement::type1, Point_placement::type2,
-                                        Point_placement::best_dihedral};
+constexpr Point_placement policies[] = {Point_placement::lazy, Point_placement::circumcenter, Point_placement::type1, Point_placement::type2};
 
+/// With points where the policy puts them: they are not moved afterwards.
 Mesh placed(const pgdr::Plc& plc, double size, double bound, Point_placement placement) {
   pgdr::Parameters parameters;
   parameters.radius_edge_ratio = bound;
-  parameters.placement = placement;
-  return refined(plc, size, parameters);
+  parameters.min_dihedral = 0;
+  const pgdr::Standard_placement policy{placement, {pgdr::cosine_of_degrees(20)}};
+  return pgdr::refine_mesh_3(pgdr::make_domain_3(plc, parameters.coplanar_tolerance, false), pgdr::Uniform_sizing_field(size), parameters, policy);
 }
 
 pgdr::Tetrahedron_points corners(const pgdr::Indexed_mesh_3& mesh, std::size_t t) {
@@ -83,14 +85,15 @@ TEST_CASE("No placement makes edges shorter than its selection ball allows", "[r
   }
 }
 
-TEST_CASE("The best of several points leaves hardly a sliver", "[refinement]") {
+TEST_CASE("A choice of points leaves hardly a sliver", "[refinement]") {
   const auto cube = pgdr::read_plc(data_file("cube.poly"));
   const auto center = pgdr::indexed_mesh_3(placed(cube, 0.04, 2, Point_placement::circumcenter));
-  const auto best = pgdr::indexed_mesh_3(placed(cube, 0.04, 2, Point_placement::best_dihedral));
-  CAPTURE(slivers(center), slivers(best), center.tetrahedra.size(), best.tetrahedra.size());
+  const auto chosen = pgdr::indexed_mesh_3(placed(cube, 0.04, 2, Point_placement::lazy));
+  CAPTURE(slivers(center), slivers(chosen), center.tetrahedra.size(), chosen.tetrahedra.size());
   CHECK(slivers(center) > 50);
-  CHECK(10 * slivers(best) <= slivers(center));
-  CHECK(best.tetrahedra.size() <= center.tetrahedra.size());
+  // What is left lies on facets, where no point is chosen.
+  CHECK(4 * slivers(chosen) <= slivers(center));
+  CHECK(chosen.tetrahedra.size() <= center.tetrahedra.size());
 }
 
 TEST_CASE("The smallest dihedral angle of a tetrahedron", "[refinement]") {

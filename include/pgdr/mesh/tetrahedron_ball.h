@@ -85,13 +85,19 @@ inline double largest_dihedral_cosine(const Tetrahedron_points& p) {
   const Vec_3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
   // Outward normals of the four facets of a positive tetrahedron, each opposite to one corner.
   const std::array<Vec_3, 4> n{cross(b - a, c - a), cross(c, b), cross(a, c), cross(b, a)};
-  double worst = -1;
+  std::array<double, 4> inverse;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double squared = squared_length(n[i]);
+    if (!(squared > 0)) return 1;
+    inverse[i] = 1 / squared;
+  }
+  double worst = -1;  // squared, with its sign: one root is enough
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) {
-      const double lengths = std::sqrt(squared_length(n[i]) * squared_length(n[j]));
-      worst = std::max(worst, lengths > 0 ? -dot(n[i], n[j]) / lengths : 1.0);
+      const double d = -dot(n[i], n[j]);
+      worst = std::max(worst, d * std::abs(d) * inverse[i] * inverse[j]);
     }
-  return worst;
+  return worst > 0 ? std::sqrt(worst) : -std::sqrt(-worst);
 }
 
 }  // namespace pgdr

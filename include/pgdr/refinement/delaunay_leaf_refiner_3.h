@@ -24,6 +24,7 @@
 #include <pgdr/refinement/hull_box_3.h>
 #include <pgdr/refinement/leaf_refiner.h>
 #include <pgdr/refinement/leaf_worklist_3.h>
+#include <pgdr/refinement/measured_star_3.h>
 #include <pgdr/refinement/obstacles_3.h>
 #include <pgdr/refinement/outside_cells_3.h>
 #include <pgdr/refinement/point_placement.h>
@@ -77,6 +78,7 @@ class Delaunay_leaf_refiner_3 {
     Zone_guard_3<Tr> guard_;
     Leaf_task task_;
     Obstacles_3<Tr> obstacles_;
+    Measured_star_3<Tr> star_;    ///< of the point whose cavity is found, where several are compared
     std::vector<Cell_id> ceded_;  ///< unlabelled tetrahedra that are not own any more
     std::size_t stranded_ = 0;    ///< pieces, as of the last time that some were ceded
   };
@@ -299,10 +301,10 @@ class Delaunay_leaf_refiner_3 {
   }
 
   /// Puts a point on a piece of a feature at a share of its length, or of the way from circumcenter to centroid, as
-  /// `Feature_refiner_3::put_on_piece`. \pre as `split_piece`
+  /// `Feature_refiner_3::put_on_piece`, and refines what is missing or poor after that. Returns how many points were inserted. \pre as `split_piece`
   template <class Good>
-  bool put_on_piece(Worker& w, const Piece_id& piece, bool is_subsegment, double share, const Good& is_good) {
-    if (is_subsegment ? !complex_.is_live_subsegment(piece) : !complex_.is_live_subfacet(piece)) return false;
+  std::size_t put_on_piece(Worker& w, const Piece_id& piece, bool is_subsegment, double share, const Good& is_good) {
+    if (is_subsegment ? !complex_.is_live_subsegment(piece) : !complex_.is_live_subfacet(piece)) return 0;
     Worklist list;
     const Leaf_task task;
     open(w, task, list);
@@ -310,8 +312,7 @@ class Delaunay_leaf_refiner_3 {
     const Vec_3 m = is_subsegment ? features.point_on_subsegment(piece.slot, share) : features.point_on_subfacet(piece.slot, share);
     const bool is_put = features.put_on_piece(piece.slot, is_subsegment, m, is_good);
     close(w, list);
-    if (is_put) drain(w, task, list);
-    return is_put;
+    return is_put ? 1 + drain(w, task, list).inserted : 0;
   }
 
   /// Splits one piece of a feature, as far as the guard allows, and refines what is missing or poor after that. \pre no other thread
@@ -431,11 +432,16 @@ class Delaunay_leaf_refiner_3 {
     if (c->has_subfacet() && is_handed_over(w, c, list)) return classify_outside(w, c, list);
     const Tetrahedron_ball ball = tetrahedron_ball(position(c->vertex(0)), position(c->vertex(1)),
                                                    position(c->vertex(2)), position(c->vertex(3)));
+    classify(w, c, ball, criteria_.is_poor(ball, c->subdomain()), list);
+  }
+
+  /// The same for a tetrahedron of the domain that was measured.
+  void classify(Worker& w, Cell_handle c, const Tetrahedron_ball& ball, bool is_poor, Worklist& list) {
     const double r = std::sqrt(ball.squared_radius);
     c->ball().set(ball.center, r, ball_error);
     const float radius = upwards * static_cast<float>(r);
-    c->set_state(criteria_.is_poor(ball, c->subdomain()) ? Cell_state::poor : Cell_state::good);
-    if (c->is_poor())
+    c->set_state(is_poor ? Cell_state::poor : Cell_state::good);
+    if (is_poor)
       list.add_poor({c, c->generation(), radius}, w.task_.target, is_steep(ball));
     else
       note_coarse(c, static_cast<double>(radius), list);
@@ -553,7 +559,10 @@ class Delaunay_leaf_refiner_3 {
     Attempt t = attempt(id, std::move(tried));
     w.features_.has_met_minimum();  // what was refused for others' sake depends on what this thread did before
     if (!w.task_.region.contains(t.at) || is_near_border(w, t)) return hand_on(t, list);
-    if (t.is_outside()) return refine_outside(w, t, list, result);
+    if (t.is_outside()) {
+      w.star_.clear();
+      return refine_outside(w, t, list, result);
+    }
     if (w.task_.territory != 0 && is_steep(t.ball)) return hand_on(t, list);
     const bool is_too_large = criteria_.is_over_size(t.ball, t.id.cell->subdomain());
     if (!is_too_large && is_hopeless(t.id.cell, t.ball, t.corners, criteria_.radius_edge_ratio(), acute_.narrow()))
@@ -599,6 +608,7 @@ class Delaunay_leaf_refiner_3 {
   /// Looks for the cavity of a Steiner point in the domain, and makes room if something is in the way.
   Trial try_point(Worker& w, Attempt& t, Worklist& list, Drain_result& result) {
     Cavity_3<Tr>& cavity = w.features_.cavity();
+    w.star_.clear();
     const Cell_handle c = t.id.cell;
     const auto hand_on_or_give_up = [&] {
       cavity.is_foreign() ? hand_on(t, list) : give_up(w, t, list, result);
@@ -640,40 +650,32 @@ class Delaunay_leaf_refiner_3 {
     return make_room(w, t, list, result) ? Trial::done : Trial::no_room;
   }
 
-  /// Where the placement offers a choice: takes the point whose star is best. Its cavity is the one that is found then.
+  /// Where the first choice leaves an angle that is too small: takes the first other point that leaves none, if there is one. Its cavity
+  /// is the one that is found then.
   /// \pre that of the first choice is found, and nothing is in its way
   void choose_point(Worker& w, Attempt& t) const {
-    Point_choice choice;
-    placement_.alternatives(poor_tetrahedron(t.ball, t.corners), choice);
-    if (choice.empty()) return;
+    const Poor_tetrahedron poor = poor_tetrahedron(t.ball, t.corners);
+    const double enough = placement_.enough(poor);
+    if (enough >= 1) return;
     Cavity_3<Tr>& cavity = w.features_.cavity();
-    double best_cosine = worst_cosine(cavity, t.at);
+    if (w.star_.measure(cavity, t.at, criteria_, enough)) return;
     cavity.abandon();
+    Point_choice choice;
+    placement_.alternatives(poor, choice);
     for (const Vec_3& q : choice) {
-      if (!w.task_.region.contains(q) || !hull_.box().contains_closed(q)) continue;
+      if (!w.task_.region.contains(q) || !hull_.box().contains_closed(q) || w.star_.is_as_bad(q, criteria_, enough)) continue;
       const Point at(q.x, q.y, q.z);
       if (!cavity.find(at, t.id.cell)) continue;
       w.features_.features().gather(complex_, cavity);
-      if (!w.obstacles_.collect(complex_, w.features_.features(), at))
-        if (const double cosine = worst_cosine(cavity, q); cosine < best_cosine) {
-          best_cosine = cosine;
-          t.at = q;
-        }
+      if (!w.obstacles_.collect(complex_, w.features_.features(), at) && w.star_.measure(cavity, q, criteria_, enough)) {
+        t.at = q;
+        return;
+      }
       cavity.abandon();
     }
     cavity.find(t.point(), t.id.cell);
     w.features_.features().gather(complex_, cavity);
-  }
-
-  /// The largest cosine of a dihedral angle in the star of p over the boundary of its cavity.
-  static double worst_cosine(const Cavity_3<Tr>& cavity, const Vec_3& p) {
-    double worst = -1;
-    for (const auto& [c, i] : cavity.boundary()) {
-      Tetrahedron_points corners;
-      for (std::size_t j = 0; j < 4; ++j) corners[j] = static_cast<int>(j) == i ? p : position(c->vertex(static_cast<int>(j)));
-      worst = std::max(worst, largest_dihedral_cosine(corners));
-    }
-    return worst;
+    w.star_.clear();
   }
 
   void refine_outside(Worker& w, Attempt& t, Worklist& list, Drain_result& result) {
@@ -729,7 +731,14 @@ class Delaunay_leaf_refiner_3 {
     v->set_insertion_radius(radius);
     list.set_anchor(v);
     ++result.inserted;
-    for (const Cell_handle c : cavity.star()) classify(w, c, list);
+    for (std::size_t k = 0; k < cavity.star().size(); ++k) classify_new(w, k, list);
+  }
+
+  /// The k-th tetrahedron around a new Steiner point.
+  void classify_new(Worker& w, std::size_t k, Worklist& list) {
+    const Cell_handle c = w.features_.cavity().star()[k];
+    if (w.star_.is_empty() || c->subdomain() == 0 || c->has_subfacet()) return classify(w, c, list);
+    classify(w, c, w.star_[k].ball, w.star_[k].is_poor, list);
   }
 
   Vec_3 steiner_point(bool outside, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) const {

@@ -29,6 +29,7 @@ struct Sliver_statistics {
   std::size_t moved = 0;  ///< vertices, as often as they were
   std::size_t added = 0;  ///< vertices
   std::size_t left = 0;   ///< tetrahedra below the wanted angle
+  double parallel_seconds = 0;  ///< in which there was work for several threads
 };
 
 /// What one run of `refine_mesh_3` did.
@@ -45,11 +46,11 @@ struct Run_statistics {
 };
 
 /// The share of the time from the domain to the refined mesh in which there was work for one thread only, 0 to 1: all of it
-/// but what refinement does in leaf tasks beside others and in parallel loops.
+/// but what refinement does in leaf tasks beside others and in parallel loops, and the removal of slivers in territories.
 inline double serial_share(const Run_statistics& run) {
   double total = 0;
   for (const auto& [phase, seconds] : run.seconds) total += seconds;
-  return total > 0 ? 1 - (run.schedule.seconds - run.schedule.serial_seconds) / total : 0;
+  return total > 0 ? 1 - (run.schedule.seconds - run.schedule.serial_seconds + run.slivers.parallel_seconds) / total : 0;
 }
 
 }  // namespace pgdr

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -43,7 +45,7 @@ class Sliver_removal_3 {
   Sliver_statistics run(const std::function<void(std::size_t)>& notify = {}) {
     std::vector<Sliver> slivers = find_slivers();
     statistics_.found = slivers.size();
-    Feature_sliver_remover_3<Tr, Criteria, Engine> on_features(tr_, complex_, judge_, wanted_, engine_, quota(), cancel_);
+    Feature_sliver_remover_3<Tr, Criteria, Engine> on_features(tr_, complex_, judge_, wanted_, engine_, most_vertices_, cancel_);
     for (int pass = 0; pass < most_passes; ++pass) {
       for (std::size_t round = 0; !slivers.empty() && !is_cancelled(); ++round) {
         if (notify) notify(slivers.size());
@@ -64,12 +66,24 @@ class Sliver_removal_3 {
   static constexpr std::size_t most_rounds = 3;  ///< with territories
   static constexpr int most_passes = 6;          ///< three are enough for most models
 
+  /// Books the time until it is destroyed.
+  class Side_by_side {
+   public:
+    explicit Side_by_side(Sliver_statistics& statistics) : statistics_(statistics) {}
+    ~Side_by_side() { statistics_.parallel_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+   private:
+    Sliver_statistics& statistics_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  };
+
   bool is_cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
 
   /// Vertices that may still be added.
   std::size_t quota() const { return most_vertices_ - std::min(most_vertices_, tr_.number_of_vertices()); }
 
-  std::vector<Sliver> find_slivers() const {
+  std::vector<Sliver> find_slivers() {
+    const Side_by_side timer(statistics_);
     std::vector<Sliver> all;
     const auto look = [this](std::size_t, auto it, std::size_t count) {
       std::vector<Sliver> part;
@@ -111,9 +125,11 @@ class Sliver_removal_3 {
     }
     std::vector<typename Remover::Result> results(n);
     const std::size_t share = quota() / n;
+    std::optional<Side_by_side> timer(statistics_);
     parallel_for(0, n, [&](std::size_t k) {
       results[k] = Remover(tr_, complex_, judge_, wanted_, {static_cast<std::uint16_t>(k + 1)}, share, cancel_).run(std::move(parts[k]));
     });
+    timer.reset();
     for (auto& r : results) {
       const std::vector<Sliver> foreign = take(std::move(r));
       left.insert(left.end(), foreign.begin(), foreign.end());
@@ -135,9 +151,7 @@ class Sliver_removal_3 {
     if (hopeless_.empty()) return false;
     std::sort(hopeless_.begin(), hopeless_.end());
     give_everything_away();
-    std::size_t inserted = 0;
-    for (const Sliver& s : hopeless_)
-      if (!is_cancelled()) inserted += remover.remove(s);
+    const std::size_t inserted = remover.remove(hopeless_);
     for (const Sliver& s : hopeless_)
       if (s.is_live()) given_up_[&*s.cell] = s.generation;
     hopeless_.clear();
