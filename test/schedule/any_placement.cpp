@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/refinement/point_placement.h>
 
@@ -21,9 +22,12 @@ namespace {
 /// One type for all placements of this file, so that the engine is compiled once.
 struct Placement {
   Vec_3 (*at)(const Poor_tetrahedron&);
+  pgdr::Lazy_placement choice = {};
   Vec_3 operator()(const Poor_tetrahedron& t) const { return at(t); }
+  double enough(const Poor_tetrahedron& t) const { return choice.enough(t); }
+  void alternatives(const Poor_tetrahedron& t, pgdr::Point_choice& points) const { choice.alternatives(t, points); }
 };
-static_assert(pgdr::PointPlacement<Placement>);
+static_assert(pgdr::ChoosingPlacement<Placement>);
 
 /// Anywhere in the ball, evenly spread over its volume: random numbers from the bits of the circumcenter.
 Vec_3 scattered(const Poor_tetrahedron& t, double radius) {
@@ -86,8 +90,6 @@ TEST_CASE("Steiner points may be anywhere in the selection ball around a body, t
 }
 
 TEST_CASE("A choice among several points is the same for every number of threads", "[schedule]") {
-  pgdr::Parameters parameters;
-  parameters.placement = pgdr::Point_placement::lazy;
-  parameters.min_dihedral = 25;
-  require_same_mesh(pgdr::read_plc(data_file("winged_body_in_box.poly")), around_the_body(), 1, parameters);
+  const Placement lazy{[](const Poor_tetrahedron& t) { return t.ball.center; }, {pgdr::cosine_of_degrees(25)}};
+  require_same_mesh_with(lazy, pgdr::read_plc(data_file("winged_body_in_box.poly")), around_the_body(), 2);
 }
