@@ -36,8 +36,8 @@ struct Parameters {
 
   /// Where it is the size that a tetrahedron is split for, points are chosen so that no dihedral angle comes out below this one, in degrees
   /// (`Point_placement::lazy`); after the refinement, vertices are moved and a few added until none is, or as far as that gets. 0: neither.
-  /// 12, by the table of docs/robustness.md: 10 takes no less time, 14 takes a seventh more of it on the models, and a cube of a given
-  /// size takes a fifth more than with 0.
+  /// 12, by the tables of docs/robustness.md: 10 takes no less time, 14 takes a seventh more of it on the models; a cube of a given
+  /// size takes a quarter to a third more than with 0.
   double min_dihedral = 12;
   static constexpr double largest_min_dihedral = 60;  ///< the regular tetrahedron has 70.5
 
