@@ -14,7 +14,6 @@ What is not installed is left out with a message.
 """
 
 import argparse
-import re
 import shutil
 import sys
 import tempfile
@@ -84,9 +83,9 @@ class Model:
             return None
         return self.folder / "surface.off"
 
-    def run(self, command, output, limit=None):
+    def run(self, command, output):
         """The mesh file and the seconds that it took, or a remark."""
-        code, seconds, text = attempt(command, limit or self.limit, self.folder)
+        code, seconds, text = attempt(command, self.limit, self.folder)
         if code == 0 and (self.folder / output).exists():
             return self.folder / output, seconds
         return None, "no end" if code is None else f"exit code {code}: {text.strip().splitlines()[-1] if text.strip() else ''}"[:60]
@@ -98,8 +97,8 @@ class Model:
     def tetgens(self, program):
         attempt([self.pgdr, "info", self.path, "--write-plc", "plc.poly"], self.limit, self.folder)
         # The volume of a tetrahedron of TetGen's, for as many as pgdr makes of a circumradius: measured, as in bench/peers.py.
-        volume = [f"a{0.38 * self.size ** 3:.3g}"] if self.size else []
-        return self.run([program, "-pMQq2.0/0" + "".join(volume), "plc.poly"], "plc.1.ele")
+        volume = f"a{0.38 * self.size ** 3:.3g}" if self.size else ""
+        return self.run([program, "-pMQq2.0/0" + volume, "plc.poly"], "plc.1.ele")
 
     def gmshs(self, program):
         if self.is_cube:
@@ -114,18 +113,17 @@ class Model:
                          "model.geo"], "gmsh.mesh")
 
     def mesh_3s(self, program, wanted):
-        """A size for about as many tetrahedra, by the secant of logarithms; the nearest of seven."""
+        """A size for about as many tetrahedra, which go with its cube; the nearest of seven."""
         points = meshio.read(self.surface).points
         size = self.size or numpy.linalg.norm(points.max(axis=0) - points.min(axis=0)) / 40
-        best = None, "no mesh"
-        nearest = numpy.inf
+        best, nearest = None, numpy.inf
         for _ in range(1 if self.size else 7):
             path, seconds = self.run([program, "surface.off", size, "mesh_3.mesh", THREADS, self.limit / 4], "mesh_3.mesh")
             if path is None:
-                return best if best[0] else (None, seconds)
+                return best or (None, seconds)
             n = len(tetrahedra(path))
-            if abs(numpy.log(n / wanted)) < nearest:
-                nearest = abs(numpy.log(n / wanted))
+            if (off := abs(numpy.log(n / wanted))) < nearest:
+                nearest = off
                 best = path.replace(self.folder / "best.mesh"), seconds
             if nearest < 0.1:
                 break
@@ -134,20 +132,17 @@ class Model:
 
 
 def rows_of(model, angle, programs):
-    rows, remarks = [], []
+    rows = []
 
     def add(mesher, result):
         path, seconds = result
-        if path is None:
-            remarks.append(f"{model.name}, {mesher}: {seconds}")
-            rows.append([model.name, mesher, seconds] + [""] * 7)
-        else:
-            rows.append(row(model.name, mesher, path, seconds))
+        rows.append(row(model.name, mesher, path, seconds) if path else [model.name, mesher, seconds] + [""] * 7)
         note(" | ".join(rows[-1]))
 
     add("pgdr, `--min-dihedral 0`", model.ours(0))
-    add(f"pgdr, `--min-dihedral {angle}`", model.ours(angle))
-    wanted = int(rows[1][2].replace(",", "")) if re.fullmatch(r"[\d,]+", rows[1][2]) else 0
+    ours = model.ours(angle)
+    add(f"pgdr, `--min-dihedral {angle}`", ours)
+    wanted = len(tetrahedra(ours[0])) if ours[0] else 0
     if programs["tetgen"]:
         add("TetGen", model.tetgens(programs["tetgen"]))
     if model.surface and programs["gmsh"]:

@@ -126,7 +126,6 @@ class Mesher_3 {
       reason_ = reason_of(watch_.reached());
     else if (left > 0 && mesh_.triangulation().number_of_vertices() >= parameters_.vertex_limit())
       reason_ = Stop_reason::vertex_budget;
-    if (reason_ != Stop_reason::finished) mesh_.statistics().stop_message = "; " + counted(left, "sliver is", "slivers are") + " left";
     if (limited_ > 0) limited_ = count_limited();
   }
 
@@ -187,13 +186,14 @@ class Mesher_3 {
     s.unrecovered = count_missing();
     s.steiner_points = mesh_.triangulation().number_of_vertices() - mesh_.domain().vertices.size() -
                        (is_box(mesh_.domain()) ? 0 : 8);
+    std::string lost;
+    if (reason_ != Stop_reason::finished && s.slivers.left > 0) lost += "; " + counted(s.slivers.left, "sliver is", "slivers are") + " left";
     if (reason_ == Stop_reason::finished && (s.unrecovered > 0 || limited_ > 0)) reason_ = Stop_reason::min_edge_length;
     s.stop = reason_;
-    std::string lost = std::move(s.stop_message);
     if (s.unrecovered > 0) lost += "; " + std::to_string(s.unrecovered) + " pieces of the input are not in the mesh";
     if (s.volumes_left_out > 0) lost += "; " + counted(s.volumes_left_out, "volume is", "volumes are") + " not closed yet, and left out";
     switch (reason_) {
-      case Stop_reason::finished: s.stop_message.clear(); break;
+      case Stop_reason::finished: break;
       case Stop_reason::vertex_budget:
         s.stop_message = "stopped at the limit of " + std::to_string(parameters_.vertex_limit()) + " vertices" + lost;
         break;

@@ -92,12 +92,10 @@ class Feature_sliver_remover_3 {
     }
     const Place* const at = strict ? strict : relaxed;
     if (!at) return 0;
-    const bool is_limited = !strict && is_next_to_poor(s.cell);
-    if (is_limited && spent_ >= budget_) return 0;
-    const auto always = [](const Cavity_3<Tr>&, const Vec_3&) { return true; };
-    const std::size_t inserted = engine_.put_on_piece(*worker_, at->piece, at->is_subsegment, at->share, always);
-    if (is_limited) spent_ += inserted;
-    return inserted;
+    return within_budget(!strict && is_next_to_poor(s.cell), [&] {
+      const auto always = [](const Cavity_3<Tr>&, const Vec_3&) { return true; };
+      return engine_.put_on_piece(*worker_, at->piece, at->is_subsegment, at->share, always);
+    });
   }
 
   /// A few on each subsegment and subfacet of a tetrahedron.
@@ -138,12 +136,17 @@ class Feature_sliver_remover_3 {
   }
 
   std::size_t split(Cell_handle c) {
-    const bool is_limited = is_next_to_poor(c);
-    if (is_limited && spent_ >= budget_) return 0;
-    const auto cause = sliver_cause(complex_, c);
-    if (!cause) return 0;
-    const std::size_t inserted = engine_.split_piece(*worker_, cause->piece, cause->is_subsegment, cause->guard, cancel_).inserted;
-    if (is_limited) spent_ += inserted;
+    return within_budget(is_next_to_poor(c), [&] {
+      const auto cause = sliver_cause(complex_, c);
+      return cause ? engine_.split_piece(*worker_, cause->piece, cause->is_subsegment, cause->guard, cancel_).inserted : 0;
+    });
+  }
+
+  /// What `insert` inserts, if there is a budget left or it does not count.
+  std::size_t within_budget(bool counts, const auto& insert) {
+    if (counts && spent_ >= budget_) return 0;
+    const std::size_t inserted = insert();
+    if (counts) spent_ += inserted;
     return inserted;
   }
 

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -125,11 +124,12 @@ class Sliver_removal_3 {
     }
     std::vector<typename Remover::Result> results(n);
     const std::size_t share = quota() / n;
-    std::optional<Side_by_side> timer(statistics_);
-    parallel_for(0, n, [&](std::size_t k) {
-      results[k] = Remover(tr_, complex_, judge_, wanted_, {static_cast<std::uint16_t>(k + 1)}, share, cancel_).run(std::move(parts[k]));
-    });
-    timer.reset();
+    {
+      const Side_by_side timer(statistics_);
+      parallel_for(0, n, [&](std::size_t k) {
+        results[k] = Remover(tr_, complex_, judge_, wanted_, {static_cast<std::uint16_t>(k + 1)}, share, cancel_).run(std::move(parts[k]));
+      });
+    }
     for (auto& r : results) {
       const std::vector<Sliver> foreign = take(std::move(r));
       left.insert(left.end(), foreign.begin(), foreign.end());
