@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds consumer/ against pgdr, the WAY it says, and runs it. Any failure ends the script with an error.
+# As a subdirectory the whole library would be compiled again, as long as all of it took the first time: that is for
+# scripts/nightly (PGDR_NIGHTLY); else the consumer's own file is compiled, with what its target gets from the library's.
 
 set(prefix ${SCRATCH_DIR}/prefix)
 set(build ${SCRATCH_DIR}/build)
@@ -14,11 +16,6 @@ if(WAY STREQUAL "find_package")
   set(where -D CMAKE_PREFIX_PATH=${prefix})
 else()
   set(where -D PGDR_SUBDIRECTORY=${SOURCE_DIR} -D PGDR_SANITIZE=${SANITIZE} -D PGDR_UNITY=${UNITY})
-  # Compiles the whole library again: out of the compiler's cache, or else at least not optimized.
-  if(NOT LAUNCHER OR DEFINED ENV{CCACHE_DISABLE})
-    string(TOUPPER "${BUILD_TYPE}" type)
-    list(APPEND where -D CMAKE_CXX_FLAGS_${type}=-O0)
-  endif()
 endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${build} -G ${GENERATOR}
   -D CMAKE_BUILD_TYPE=${BUILD_TYPE}
@@ -28,5 +25,11 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${build} -G ${GENE
   -D CGAL_DIR=${CGAL_DIR}
   ${where})
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
-run(${CMAKE_COMMAND} --build ${build} --parallel ${cores})
-run(${build}/consumer)
+if(WAY STREQUAL "find_package" OR DEFINED ENV{PGDR_NIGHTLY})
+  run(${CMAKE_COMMAND} --build ${build} --parallel ${cores})
+  run(${build}/consumer)
+elseif(GENERATOR MATCHES "Ninja")
+  run(${CMAKE_COMMAND} --build ${build} --target CMakeFiles/consumer.dir/main.cpp.o)
+else()
+  run(${CMAKE_COMMAND} --build ${build} --target main.cpp.o)
+endif()

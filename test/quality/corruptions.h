@@ -135,57 +135,56 @@ inline void append_vertex(Mesh& mesh, const Mesh::Point& p) {
 
 inline std::vector<Corruption> corruptions() {
   namespace cd = corruption_detail;
-  using Mesh = pgdr::Indexed_mesh_3;
   return {
       {"an index out of range", "indices", false,
-       [](Mesh& m) { m.tetrahedra.back()[2] = std::uint32_t(m.points.size()); }},
+       [](cd::Mesh& m) { m.tetrahedra.back()[2] = std::uint32_t(m.points.size()); }},
       {"a coordinate that is not a number", "indices", false,
-       [](Mesh& m) { m.points.back()[1] = std::numeric_limits<double>::quiet_NaN(); }},
+       [](cd::Mesh& m) { m.points.back()[1] = std::numeric_limits<double>::quiet_NaN(); }},
       {"a vertex duplicated", "vertices", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          cd::append_vertex(m, m.points[m.tetrahedra[0][0]]);
          m.tetrahedra[0][0] = std::uint32_t(m.points.size() - 1);
        }},
       {"a vertex without tetrahedra", "vertices", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          cd::append_vertex(m, m.points[0]);
          m.points.back()[0] += 1;
        }},
       {"a tetrahedron duplicated", "duplicates", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          m.tetrahedra.push_back(m.tetrahedra[m.tetrahedra.size() / 2]);
          m.tetrahedron_references.push_back(m.tetrahedron_references[m.tetrahedra.size() / 2]);
        }},
       {"a triangle duplicated", "duplicates", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          m.triangles.push_back(m.triangles[0]);
          m.triangle_references.push_back(m.triangle_references[0]);
        }},
       {"a vertex moved", "orientation", false, cd::move_vertex},
       {"a tetrahedron inverted", "orientation", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          std::swap(m.tetrahedra[m.tetrahedra.size() / 2][0], m.tetrahedra[m.tetrahedra.size() / 2][1]);
        }},
       {"a tetrahedron inverted, as seen from its neighbours", "faces", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          auto& t = m.tetrahedra[cd::inner_face(m)[0]];
          std::swap(t[2], t[3]);
        }},
       {"a tetrahedron removed", "boundary", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          const auto t = cd::inner_face(m)[0];
          cd::erase(m.tetrahedra, t);
          cd::erase(m.tetrahedron_references, t);
        }},
       {"a boundary triangle removed from its section", "boundary", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          m.triangles.pop_back();
          m.triangle_references.pop_back();
        }},
       {"a region swapped", "boundary", false,
-       [](Mesh& m) { m.tetrahedron_references[cd::inner_face(m)[0]] += 1; }},
+       [](cd::Mesh& m) { m.tetrahedron_references[cd::inner_face(m)[0]] += 1; }},
       {"an edge that is none", "edges", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          // From a vertex to one that shares no tetrahedron with it.
          std::set<std::uint32_t> near{m.tetrahedra[0][0]};
          for (const auto& t : m.tetrahedra)
@@ -197,44 +196,44 @@ inline std::vector<Corruption> corruptions() {
          m.edge_references.push_back(0);
        }},
       {"a tetrahedron added on top of others", "overlap", false,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          m.tetrahedra.push_back(m.tetrahedra[m.tetrahedra.size() / 2]);
          m.tetrahedron_references.push_back(m.tetrahedron_references[m.tetrahedra.size() / 2]);
        }},
       {"a flip that is not Delaunay", "delaunay", false, cd::flip_2_3},
       {"an input vertex replaced", "input vertices", true,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          double& x = m.points[cd::corner(m)][0];
          x = std::nextafter(x, std::numeric_limits<double>::infinity());
        }},
       {"a vertex marker changed", "input vertices", true,
-       [](Mesh& m) { m.point_references[cd::corner(m)] += 1; }},
-      {"a triangle marker swapped", "facets", true, [](Mesh& m) { m.triangle_references[0] += 1; }},
+       [](cd::Mesh& m) { m.point_references[cd::corner(m)] += 1; }},
+      {"a triangle marker swapped", "facets", true, [](cd::Mesh& m) { m.triangle_references[0] += 1; }},
       {"a triangle that is in no facet", "facets", true,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          const auto [t, i] = cd::inner_face(m);
          m.triangles.push_back(cd::face(m, t, i));
          m.triangle_references.push_back(m.triangle_references[0]);
        }},
       {"a triangle missing in a facet", "facets", true,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          cd::erase(m.triangles, 0);
          cd::erase(m.triangle_references, 0);
        }},
       {"an edge removed", "segments", true,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          m.edges.pop_back();
          m.edge_references.pop_back();
        }},
-      {"an edge marker changed", "segments", true, [](Mesh& m) { m.edge_references[0] += 1; }},
+      {"an edge marker changed", "segments", true, [](cd::Mesh& m) { m.edge_references[0] += 1; }},
       {"a region swapped, as seen from the input", "regions", true,
-       [](Mesh& m) { m.tetrahedron_references[cd::inner_face(m)[0]] += 1; }},
+       [](cd::Mesh& m) { m.tetrahedron_references[cd::inner_face(m)[0]] += 1; }},
       {"all region ids changed", "regions", true,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          for (auto& r : m.tetrahedron_references) r += 1;
        }},
       {"a tetrahedron removed, as seen from the input", "volume", true,
-       [](Mesh& m) {
+       [](cd::Mesh& m) {
          const auto t = cd::inner_face(m)[0];
          cd::erase(m.tetrahedra, t);
          cd::erase(m.tetrahedron_references, t);

@@ -28,7 +28,7 @@ Mesh placed(const pgdr::Plc& plc, double size, double bound, Point_placement pla
   parameters.radius_edge_ratio = bound;
   parameters.min_dihedral = 0;
   const pgdr::Standard_placement policy{placement, {pgdr::cosine_of_degrees(20)}};
-  return pgdr::refine_mesh_3(pgdr::make_domain_3(plc, parameters.coplanar_tolerance, false), pgdr::Uniform_sizing_field(size), parameters, policy);
+  return pgdr::refine_mesh_3(pgdr::make_domain_3(plc, parameters.coplanar_tolerance, false), same_size(size), parameters, policy);
 }
 
 pgdr::Tetrahedron_points corners(const pgdr::Indexed_mesh_3& mesh, std::size_t t) {

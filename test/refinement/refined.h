@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <set>
 #include <string>
@@ -22,6 +23,13 @@
 namespace pgdr_test {
 
 using Mesh = pgdr::Refined_mesh_3<pgdr::Default_kernel>;
+
+/// For sizes and placements that the library does not compile: one more engine for all of these tests.
+using Sizing_function = std::function<double(const pgdr::Default_kernel::Point_3&)>;
+
+inline Sizing_function same_size(double size) {
+  return [size](const pgdr::Default_kernel::Point_3&) { return size; };
+}
 
 /// A file of `data/` with a bound on circumradii.
 struct Sized_shape {

@@ -21,12 +21,9 @@ namespace {
 using Kernel = pgdr::Default_kernel;
 
 /// A tenth of the distance from the middle of the box, but no less than `least`.
-struct Size_near_middle {
-  double least;
-  double operator()(const Kernel::Point_3& p) const {
-    return std::max(least, 0.1 * std::hypot(p.x() - 0.5, p.y() - 0.5, p.z() - 0.5));
-  }
-};
+Sizing_function size_near_middle(double least) {
+  return [least](const Kernel::Point_3& p) { return std::max(least, 0.1 * std::hypot(p.x() - 0.5, p.y() - 0.5, p.z() - 0.5)); };
+}
 
 pgdr::Parameters up_to(std::size_t vertices) {
   pgdr::Parameters parameters;
@@ -38,18 +35,19 @@ pgdr::Parameters up_to(std::size_t vertices) {
 
 TEST_CASE("A sizing field that goes to zero has no end, and one that does not has", "[refinement]") {
   for (const std::size_t limit : {20000u, 80000u})
-    CHECK(pgdr::refine_mesh_3(box(), Size_near_middle{0}, up_to(limit)).statistics().stop == pgdr::Stop_reason::vertex_budget);
-  const auto mesh = pgdr::refine_mesh_3(box(), Size_near_middle{0.01}, up_to(80000));
+    CHECK(pgdr::refine_mesh_3(box(), size_near_middle(0), up_to(limit)).statistics().stop == pgdr::Stop_reason::vertex_budget);
+  const auto mesh = pgdr::refine_mesh_3(box(), size_near_middle(0.01), up_to(80000));
   CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
 }
 
 TEST_CASE("A ratio bound below 1 has no end, and one below 2 is refused", "[refinement]") {
-  const pgdr::Uniform_sizing_field anything(std::numeric_limits<double>::infinity());
+  const Sizing_function anything = same_size(std::numeric_limits<double>::infinity());
+  const pgdr::Standard_placement at_circumcenters{pgdr::Point_placement::circumcenter, {1}};
   const auto stop = [&](double bound, std::size_t limit) {
     pgdr::Parameters parameters = up_to(limit);
     parameters.radius_edge_ratio = bound;
-    using Mesher = pgdr::internal::Mesher_3<Kernel, pgdr::Uniform_sizing_field, pgdr::Circumcenter_placement>;
-    return Mesher(pgdr::make_domain_3(tilted(box({0, 0, 0}, {3, 2, 1}))), parameters, {}).run(anything).statistics().stop;
+    using Mesher = pgdr::internal::Mesher_3<Kernel, Sizing_function, pgdr::Standard_placement>;
+    return Mesher(pgdr::make_domain_3(tilted(box({0, 0, 0}, {3, 2, 1}))), parameters, at_circumcenters).run(anything).statistics().stop;
   };
   for (const std::size_t limit : {2000u, 8000u}) CHECK(stop(0.7, limit) == pgdr::Stop_reason::vertex_budget);
   CHECK(stop(2, 2000) == pgdr::Stop_reason::finished);
