@@ -8,10 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/io/atomic_file.h>
 #include <pgdr/io/medit.h>
+#include <pgdr/io/write_quality.h>
+#include <pgdr/mesh/scale_mesh.h>
 #include <pgdr/parallel/thread_arena.h>
 #include <pgdr/quality/check_mesh.h>
+#include <pgdr/quality/mesh_quality.h>
 #include <pgdr/report/format.h>
+#include <pgdr/report/print_quality.h>
 
 #include "arguments.h"
 #include "command.h"
@@ -27,6 +32,7 @@ struct Check_arguments {
   std::vector<std::string> inputs;
   std::string radius_edge_ratio;
   std::string min_dihedral;
+  std::string quality;
   std::string threads;
   Domain_options domain;
 };
@@ -38,6 +44,10 @@ int run_check(const Check_arguments& arguments) {
   if (!arguments.min_dihedral.empty()) options.min_dihedral_deg = parse_dihedral_angle("--min-dihedral", arguments.min_dihedral);
   arguments.domain.check();  // nonsense is refused even where it is not needed
   require_extension("MESH", arguments.mesh, {".mesh"});
+  if (!arguments.quality.empty()) {
+    require_distinct_files({arguments.mesh}, {arguments.quality});
+    check_writable(arguments.quality);
+  }
 
   std::optional<Domain> domain;
   std::vector<Check_line> lines;
@@ -50,10 +60,17 @@ int run_check(const Check_arguments& arguments) {
                        "what is meshed is within " + significant(input.simplified.limit, 3) + " of the input and the input within that of it; the largest distance met is " +
                            significant(input.simplified.distance.seen, 3)});
   }
-  for (Check_line& line : check_mesh(read_medit(arguments.mesh), domain ? &*domain : nullptr, options)) lines.push_back(std::move(line));
+  Indexed_mesh_3 mesh = read_medit(arguments.mesh);
+  const std::vector<Check_line> checked = check_mesh(mesh, domain ? &*domain : nullptr, options);
+  lines.insert(lines.end(), checked.begin(), checked.end());
   for (const Check_line& line : lines) {
     std::cout << (line.passed ? "ok    " : "FAIL  ") << std::left << std::setw(15) << line.property << "  "
               << line.detail << '\n';
+  }
+  if (checked.front().passed && !mesh.tetrahedra.empty()) {  // all indices in range, all coordinates numbers
+    mesh = scaled_to(std::move(mesh), mesh.exponent + exponent_for(mesh));
+    print_quality(std::cout, mesh_quality(mesh));
+    if (!arguments.quality.empty()) write_quality(mesh, arguments.quality);
   }
   const auto failed =
       std::count_if(lines.begin(), lines.end(), [](const Check_line& line) { return !line.passed; });
@@ -88,6 +105,7 @@ Command add_check_command(CLI::App& program) {
       ->add_option("--threads", arguments->threads,
                    "Number of threads (default and 0: one per core); the result is the same for all")
       ->type_name("N");
+  add_quality_option(*parser, arguments->quality);
   arguments->domain.add_to(*parser);
   return {parser, [arguments] {
             const unsigned threads = arguments->threads.empty() ? 0 : parse_threads("--threads", arguments->threads);

@@ -3,6 +3,7 @@
 #define PGDR_APPS_COMMAND_H
 
 #include <functional>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -17,6 +18,11 @@ struct Command {
 Command add_mesh_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
+
+/// `--quality FILE`, of those that have a mesh.
+inline void add_quality_option(CLI::App& parser, std::string& path) {
+  parser.add_option("--quality", path, "Write the quality of every tetrahedron, as comma-separated values")->type_name("FILE");
+}
 
 /// The whole program: parses, runs one subcommand, and turns every error into one sentence and an exit code.
 int run_program(int argc, char** argv);

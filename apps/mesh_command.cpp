@@ -12,6 +12,7 @@
 #include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/write_mesh.h>
+#include <pgdr/io/write_quality.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
 #include <pgdr/parallel/thread_arena.h>
 #include <pgdr/parameters.h>
@@ -48,12 +49,14 @@ struct Mesh_arguments {
   std::string radius_edge_ratio;
   std::string placement;
   std::string min_dihedral;
+  std::string optimize;
   std::string min_edge_length;
   std::string max_vertices;
   std::string max_memory;
   std::string time_limit;
   std::string threads;
   std::string stats;
+  std::string quality;
   std::string trace;
   std::string problems;
   std::string octree_depth;
@@ -96,6 +99,10 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       .add_option("--min-dihedral", arguments.min_dihedral,
                   "Choose, move and add vertices until no dihedral angle is below this one, in degrees, as far as that gets (default 12; 0: do not)")
       ->type_name("A");
+  parser
+      .add_option("--optimize", arguments.optimize,
+                  "Rounds in which vertices inside move to make tetrahedra better on average, without smaller angles than --min-dihedral (default 0)")
+      ->type_name("N");
   arguments.domain.add_to(parser);
   add_problems_option(parser, arguments.problems);
   parser.add_flag("--ignore-region-sizes", arguments.ignore_region_sizes,
@@ -126,6 +133,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
   parser.add_flag("--quiet", arguments.quiet, "No progress line and no summary");
   parser.add_option("--stats", arguments.stats, "Write the summary as JSON; '-': to the standard output, in place of the one for people")
       ->type_name("FILE");
+  add_quality_option(parser, arguments.quality);
   parser
       .add_option("--trace", arguments.trace,
                   "Write a timeline of all leaf tasks in the Chrome trace-event format, for chrome://tracing or Perfetto")
@@ -165,6 +173,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
     p.radius_edge_ratio = parse_ratio_bound("--radius-edge-ratio", arguments.radius_edge_ratio);
   if (!arguments.placement.empty()) p.placement = parse_placement(arguments.placement);
   if (!arguments.min_dihedral.empty()) p.min_dihedral = parse_dihedral_angle("--min-dihedral", arguments.min_dihedral);
+  if (!arguments.optimize.empty() && arguments.optimize != "0") p.optimization_rounds = parse_count("--optimize", arguments.optimize);
   p.coplanar_tolerance = arguments.domain.fusing_tolerance();
   p.triangulate_facets = arguments.domain.accepts_bent_polygons();
   p.ignore_region_sizes = arguments.ignore_region_sizes;
@@ -186,6 +195,7 @@ void check_outputs(const Mesh_arguments& arguments) {
   for (const std::string& output : arguments.outputs) require_extension("-o", output, {".vtu", ".mesh"});
   std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
   if (!arguments.stats.empty() && arguments.stats != "-") files.emplace_back(arguments.stats);
+  if (!arguments.quality.empty()) files.emplace_back(arguments.quality);
   if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
   add_problem_file(arguments.problems, files);
   require_distinct_files({arguments.inputs.begin(), arguments.inputs.end()}, files);
@@ -237,6 +247,7 @@ int run_mesh(const Mesh_arguments& arguments) {
     run.unrecovered = statistics.unrecovered;
     run.volumes_left_out = statistics.volumes_left_out;
     run.slivers = statistics.slivers;
+    run.optimization = statistics.optimization;
     run.schedule = statistics.schedule;
     run.serial_share = serial_share(statistics);
     timer.end_phases(statistics.seconds);
@@ -254,11 +265,16 @@ int run_mesh(const Mesh_arguments& arguments) {
   timer.end_phase("measuring");
   // A mesh of nothing is of no use to anybody, and what it would replace may be.
   const bool is_usable = !mesh.tetrahedra.empty();
-  if (is_usable)
+  if (is_usable) {
     for (const std::string& output : arguments.outputs) {
       progress.show("writing " + output);
       write_mesh(mesh, output);
     }
+    if (!arguments.quality.empty()) {
+      progress.show("writing " + arguments.quality);
+      write_quality(mesh, arguments.quality);
+    }
+  }
   progress.erase();
   timer.end_phase("writing");
 

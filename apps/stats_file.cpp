@@ -45,6 +45,7 @@ Json small_angles_json(const Mesh_quality& quality) {
 
 std::string stats_json(const Run_summary& run) {
   const Mesh_quality& quality = run.quality;
+  const auto measure = [](const Mesh_quality::Measure& m) { return Json{{"worst", m.worst}, {"mean", m.mean}}; };
   // In hexadecimal: a JSON number may lose bits of it.
   char checksum[17];
   std::snprintf(checksum, sizeof checksum, "%016" PRIx64, run.checksum);
@@ -101,10 +102,17 @@ std::string stats_json(const Run_summary& run) {
                      {"mean_radius_edge_ratio", quality.mean_radius_edge_ratio},
                      {"max_circumradius", quality.max_circumradius},
                      {"min_dihedral_deg", quality.min_dihedral_deg},
+                     {"max_dihedral_deg", quality.max_dihedral_deg},
+                     {"dihedral_histogram", {{"bin_deg", Mesh_quality::dihedral_bin_deg}, {"counts", quality.dihedral_histogram}}},
                      {"tetrahedra_below_deg", small_angles_json(quality)},
+                     {"edge_ratio", measure(quality.edge_ratio)},
+                     {"aspect_ratio", measure(quality.aspect_ratio)},
+                     {"mean_ratio", measure(quality.mean_ratio)},
+                     {"scaled_jacobian", measure(quality.scaled_jacobian)},
                      {"slivers",
                       {{"found", run.slivers.found}, {"left", run.slivers.left}, {"moved", run.slivers.moved}, {"added", run.slivers.added},
                        {"parallel_seconds", run.slivers.parallel_seconds}}},
+                     {"optimization", {{"rounds", run.optimization.rounds}, {"moved", run.optimization.moved}}},
                      {"exempt_tetrahedra", run.exempt_tetrahedra},
                      {"exempt_angles", exempt_angles},
                      {"unrefined_tetrahedra", run.unrefined_tetrahedra},

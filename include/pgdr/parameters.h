@@ -11,7 +11,7 @@ namespace pgdr {
 
 /// What the refinement tells about itself while it runs; the same calls come in the same order in every run.
 struct Progress {
-  const char* phase = "";        ///< "conforming", "refinement" or "removing slivers"
+  const char* phase = "";        ///< "conforming", "refinement", "removing slivers" or "optimization"
   std::size_t vertices = 0;      ///< of the triangulation, the box included
   std::size_t pending = 0;       ///< elements that wait to be looked at
 };
@@ -40,6 +40,10 @@ struct Parameters {
   /// size takes a quarter to a third more than with 0.
   double min_dihedral = 12;
   static constexpr double largest_min_dihedral = 60;  ///< the regular tetrahedron has 70.5
+
+  /// Rounds in which every vertex inside is moved, if the tetrahedra around it get better on average and no dihedral angle falls below
+  /// `min_dihedral`, when everything else is done: for solvers that profit from the average, not only from the worst. A round takes about as long as the refinement.
+  std::size_t optimization_rounds = 0;
 
   /// Facets whose vertices lie this close to one plane, relative to the bounding box's diagonal, are fused.
   /// 1e-6 undoes single-precision files and is far below any feature that a simulation resolves.

@@ -33,6 +33,7 @@
 #include <pgdr/sizing/box_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
+#include <pgdr/slivers/optimize_mesh_3.h>
 #include <pgdr/slivers/remove_slivers_3.h>
 
 namespace pgdr {
@@ -88,6 +89,10 @@ class Mesher_3 {
       remove_slivers(criteria);
       lap("slivers");
     }
+    if (reason_ == Stop_reason::finished && parameters_.optimization_rounds > 0) {
+      optimize(criteria);
+      lap("optimization");
+    }
     if (parameters_.verify && !mesh_.triangulation().is_valid())
       throw std::logic_error("the refined triangulation is not a valid Delaunay triangulation");
     if (parameters_.verify) lap("verification");
@@ -126,6 +131,20 @@ class Mesher_3 {
       reason_ = reason_of(watch_.reached());
     else if (left > 0 && mesh_.triangulation().number_of_vertices() >= parameters_.vertex_limit())
       reason_ = Stop_reason::vertex_budget;
+    if (limited_ > 0) limited_ = count_limited();
+  }
+
+  void optimize(const Criteria& criteria) {
+    const auto notify = [this](std::size_t vertices) {
+      if (parameters_.progress) parameters_.progress({"optimization", mesh_.triangulation().number_of_vertices(), vertices});
+    };
+    const double wanted = parameters_.min_dihedral > 0 ? cosine_of_degrees(parameters_.min_dihedral) : -1;
+    with_threads(parameters_.threads, [&] {
+      mesh_.statistics().optimization =
+          Mesh_optimizer_3<Tr, Criteria>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_, wanted, parameters_.cancel)
+              .run(parameters_.optimization_rounds, notify);
+    });
+    if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = reason_of(watch_.reached());
     if (limited_ > 0) limited_ = count_limited();
   }
 

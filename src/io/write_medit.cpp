@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/medit.h>
-#include <pgdr/parallel/parallel_for.h>
-#include <pgdr/parallel/parallel_in_order.h>
 
 #include "numbers.h"
+#include "text_blocks.h"
 
 namespace pgdr {
 namespace {
@@ -21,8 +18,8 @@ namespace {
 using io_detail::put_char;
 using io_detail::put_number;
 
-constexpr std::size_t rows_per_block = 8192;
-constexpr std::size_t max_row_length = 5 * (io_detail::max_number_length + 1);
+/// Of the longest rows: four vertices and a reference.
+constexpr std::size_t most_columns = 5;
 
 std::int32_t reference_of(const std::vector<std::int32_t>& references, std::size_t i) {
   return i < references.size() ? references[i] : 0;
@@ -51,23 +48,10 @@ char* format_elements(const std::vector<std::array<std::uint32_t, N>>& elements,
   return out;
 }
 
-/// Writes a section; `format(first, last, out)` turns a range of its rows into text and knows of no other. Blocks are
-/// formatted at once on all threads and written in order.
 template <class Format>
 void write_section(Atomic_file& out, const char* keyword, std::size_t count, const Format& format) {
   out.write("\n" + std::string(keyword) + "\n" + std::to_string(count) + "\n");
-  struct Block {
-    std::unique_ptr<char[]> text;
-    std::size_t size = 0;
-  };
-  parallel_in_order<Block>(
-      chunk_count(count, rows_per_block),
-      [&](std::size_t i, Block& block) {
-        if (!block.text) block.text = std::make_unique_for_overwrite<char[]>(rows_per_block * max_row_length);
-        const std::size_t first = i * rows_per_block, last = std::min(first + rows_per_block, count);
-        block.size = static_cast<std::size_t>(format(first, last, block.text.get()) - block.text.get());
-      },
-      [&](std::size_t, const Block& block) { out.write(block.text.get(), block.size); });
+  io_detail::write_rows(out, count, most_columns, format);
 }
 
 template <std::size_t N>

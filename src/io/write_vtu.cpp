@@ -171,12 +171,12 @@ class Vtu_writer {
   /// filled and compressed at once on all threads.
   template <class Row, class Function>
   void append(const Data_array& array, std::size_t count, const Function& row) {
-    const std::size_t rows_in_block = block_bytes / sizeof(Row);
-    const std::size_t blocks = (count + rows_in_block - 1) / rows_in_block;
+    const std::size_t rows_per_block = block_bytes / sizeof(Row);
+    const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
     patch_offset(array);
     // number of blocks, bytes of a block, bytes of the last one if it is smaller, compressed bytes of each
-    std::vector<std::uint64_t> header{blocks, rows_in_block * sizeof(Row),
-                                      count % rows_in_block * sizeof(Row)};
+    std::vector<std::uint64_t> header{blocks, rows_per_block * sizeof(Row),
+                                      count % rows_per_block * sizeof(Row)};
     header.resize(3 + blocks);
     const std::uint64_t header_position = out_.position();
     out_.write(header.data(), header.size() * sizeof(std::uint64_t));
@@ -184,7 +184,7 @@ class Vtu_writer {
         blocks,
         [&](std::size_t b, std::unique_ptr<Compressor>& block) {
           if (!block) block = std::make_unique<Compressor>();
-          const std::size_t first = b * rows_in_block, last = std::min(first + rows_in_block, count);
+          const std::size_t first = b * rows_per_block, last = std::min(first + rows_per_block, count);
           for (std::size_t i = first; i < last; ++i) {
             const Row value = row(i);
             std::memcpy(block->input() + (i - first) * sizeof(Row), &value, sizeof(Row));

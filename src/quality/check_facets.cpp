@@ -83,7 +83,7 @@ std::vector<Check_line> check_facets(const Indexed_mesh_3& mesh, const Epick_dom
   Failures failures, far;
   const std::vector<Triangle_edge> edges = triangle_edges(mesh);
   const std::vector<std::uint32_t> facet = facets_of_triangles(mesh, domain, expected, edges);
-  const double rounding = rounding_distance(domain);
+  const double rounded = rounding_distance(domain);
   const auto corner = [&](std::uint32_t v) { return to_vec(mesh.points[v]); };
 
   std::vector<Coverage> coverage(domain.facets.size());
@@ -122,7 +122,7 @@ std::vector<Check_line> check_facets(const Indexed_mesh_3& mesh, const Epick_dom
     double distance = 0;
     for (const std::uint32_t v : mesh.triangles[i])
       distance = std::max(distance, std::abs(dot(to_vec(g.normal), corner(v) - to_vec(g.origin))));
-    if (distance > domain.tolerance * (1 + 1e-6) + rounding)
+    if (distance > domain.tolerance * (1 + 1e-6) + rounded)
       far.add("triangle ", i, " reaches ", distance, " away from facet ", facet[i]);
     farthest = std::max(farthest, distance);
     coverage[facet[i]].thickness = std::max(coverage[facet[i]].thickness, distance);
@@ -136,7 +136,7 @@ std::vector<Check_line> check_facets(const Indexed_mesh_3& mesh, const Epick_dom
     const double area = twice_projected_area(a, b, c, to_vec(domain.facets[facet[i]].normal));
     const double longest =
         std::sqrt(std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)}));
-    projected[i] = {area > 0, std::abs(area) > 4 * longest * (coverage[facet[i]].thickness + rounding)};
+    projected[i] = {area > 0, std::abs(area) > 4 * longest * (coverage[facet[i]].thickness + rounded)};
     coverage[facet[i]].covered += std::abs(area) / 2;
     if (!projected[i].clear) coverage[facet[i]].unclear += std::abs(area) / 2;
   }
@@ -147,7 +147,7 @@ std::vector<Check_line> check_facets(const Indexed_mesh_3& mesh, const Epick_dom
     const double area = coverage[f].wanted.value(), difference = std::abs(coverage[f].covered.value() - area);
     // A triangle of a bent facet that stands up within its thickness may be seen from behind: then it counts twice too often.
     const double folded = coverage[f].covered.value() > area ? 2 * coverage[f].unclear.value() : 0;
-    if (difference > 1e-9 * area + rounding * coverage[f].perimeter + folded)
+    if (difference > 1e-9 * area + rounded * coverage[f].perimeter + folded)
       failures.add(
           "facet ", f, " (input facet ",
           domain.facets[f].input_facets.empty() ? 0 : domain.facets[f].input_facets[0] + domain.first_index,

@@ -17,7 +17,7 @@ namespace pgdr::quality_detail {
 /// Finds the bin of `Mesh_quality::dihedral_histogram` of an angle from its cosine.
 ///
 /// [-1, 1] is cut into cells so small that each holds at most one boundary between bins, and of a number that keeps
-/// every boundary in the inner half of its cell: only that one need be looked at.
+/// every boundary a tenth of a cell away from its ends: only that one need be looked at.
 class Dihedral_bins {
  public:
   static constexpr int unclear = -1;
@@ -50,7 +50,7 @@ class Dihedral_bins {
     int below, above;  ///< bins of smaller cosines and of larger ones
   };
   static constexpr std::size_t bins = std::tuple_size_v<decltype(Mesh_quality::dihedral_histogram)>;
-  static constexpr std::size_t count = 175;
+  static constexpr std::size_t count = 227;
 
   static std::size_t cell_of(double cosine) {
     const double cell = (cosine + 1) * (count / 2.0);

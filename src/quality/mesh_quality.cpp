@@ -12,6 +12,7 @@
 #include <pgdr/parallel/parallel_reduce.h>
 #include <pgdr/quality/compensated_sum.h>
 #include <pgdr/quality/measures.h>
+#include <pgdr/quality/shape_measures.h>
 
 #include "dihedral_bins.h"
 
@@ -34,6 +35,24 @@ struct Shape {
   double squared_radius;
   double squared_shortest;
   std::array<double, 6> cosines;  ///< of the dihedral angles
+};
+
+/// The worst and the sum of one of the `Shape_measures`; it is better the larger it is, or the smaller.
+template <bool larger_is_better>
+class Measure_sum {
+ public:
+  void add(double value) { add(value, value); }
+  void add(const Measure_sum& o) { add(o.worst_, o.sum_.value()); }
+  Mesh_quality::Measure over(std::size_t count) const { return {worst_, sum_.value() / double(count)}; }
+
+ private:
+  void add(double worst, double sum) {
+    worst_ = larger_is_better ? std::min(worst_, worst) : std::max(worst_, worst);
+    sum_ += sum;
+  }
+
+  double worst_ = larger_is_better ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+  Compensated_sum sum_;
 };
 
 /// The shape of a tetrahedron that is far from flat and has no needle of a face; false for all others.
@@ -100,6 +119,11 @@ class Quality_sum {
     min_squared_edge_ = std::min(min_squared_edge_, shape.squared_shortest);
     const double ratio = std::sqrt(squared_ratio);
     ratios_ += ratio;
+    const Shape_measures measures = shape_measures(a, b, c, d, shape.determinant);
+    edge_ratio_.add(measures.edge_ratio);
+    aspect_ratio_.add(measures.aspect_ratio);
+    mean_ratio_.add(measures.mean_ratio);
+    scaled_jacobian_.add(measures.scaled_jacobian);
     count(q_.ratio_histogram, ratio, Mesh_quality::ratio_bin);
     Region& sum = region_sum(region);
     sum.volume += shape.determinant / 6;
@@ -117,6 +141,10 @@ class Quality_sum {
     for (std::size_t i = 0; i < q_.tetrahedra_below.size(); ++i) q_.tetrahedra_below[i] += o.q_.tetrahedra_below[i];
     for (std::size_t i = 0; i < q_.ratio_histogram.size(); ++i) q_.ratio_histogram[i] += o.q_.ratio_histogram[i];
     ratios_ += o.ratios_.value();
+    edge_ratio_.add(o.edge_ratio_);
+    aspect_ratio_.add(o.aspect_ratio_);
+    mean_ratio_.add(o.mean_ratio_);
+    scaled_jacobian_.add(o.scaled_jacobian_);
     for (const auto& [region, part] : o.regions_) {
       Region& sum = region_sum(region);
       sum.volume += part.volume.value();
@@ -134,6 +162,10 @@ class Quality_sum {
     q.max_circumradius = unit * std::sqrt(max_squared_radius_);
     q.max_radius_edge_ratio = std::sqrt(max_squared_ratio_);
     q.mean_radius_edge_ratio = ratios_.value() / double(q.tetrahedra);
+    q.edge_ratio = edge_ratio_.over(q.tetrahedra);
+    q.aspect_ratio = aspect_ratio_.over(q.tetrahedra);
+    q.mean_ratio = mean_ratio_.over(q.tetrahedra);
+    q.scaled_jacobian = scaled_jacobian_.over(q.tetrahedra);
     q.shortest_edge = unit * std::sqrt(min_squared_edge_);
     Compensated_sum volume;
     for (const auto& [region, sum] : regions_) {
@@ -169,7 +201,7 @@ class Quality_sum {
       return;
     }
     for (const int bin : found) ++q_.dihedral_histogram[std::size_t(bin)];
-    // Of the bins' ten degrees the small angles are parts.
+    // The small angles are boundaries of bins, or within the first.
     if (*std::ranges::min_element(found) <= last_small_bin) count_small(smallest_dihedral_angle_deg(a, b, c, d));
   }
 
@@ -200,6 +232,8 @@ class Quality_sum {
   double min_squared_edge_ = std::numeric_limits<double>::infinity();
   double max_cosine_ = -2, min_cosine_ = 2;  ///< of the shapes whose angles were computed
   Compensated_sum ratios_;
+  Measure_sum<false> edge_ratio_, aspect_ratio_;
+  Measure_sum<true> mean_ratio_, scaled_jacobian_;
   std::map<std::int32_t, Region> regions_;
   std::map<std::int32_t, Region>::iterator last_ = regions_.end();
 };

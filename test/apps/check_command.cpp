@@ -47,6 +47,26 @@ TEST_CASE("check fails on a mesh of something else, and on a broken one", "[apps
   CHECK(broken.out.find("FAIL") != std::string::npos);
 }
 
+TEST_CASE("mesh and check say the same of the quality, and write it", "[apps]") {
+  const Sandbox sandbox;
+  const Run mesh = sandbox.run("mesh " + shape("two_regions.poly") + " -o out.mesh --quality a.csv");
+  REQUIRE(mesh.exit_code == 0);
+  const Run check = sandbox.run("check out.mesh --quality b.csv");
+  REQUIRE(check.exit_code == 0);
+  CHECK(file_text(sandbox / "a.csv") == file_text(sandbox / "b.csv"));
+  for (const std::string name : {"radius-edge ratio", "circumradius", "dihedral angle", "scaled Jacobian"}) {
+    const auto line = [&](const std::string& text) {
+      const std::size_t begin = text.find("\n" + name);
+      REQUIRE(begin != std::string::npos);
+      return text.substr(begin, text.find('\n', begin + 1) - begin);
+    };
+    CHECK(line(mesh.out) == line(check.out));
+  }
+  CHECK(sandbox.run("check out.mesh --quality out.mesh").exit_code == 2);
+  CHECK(sandbox.run("mesh " + shape("cube.poly") + " -o out.mesh --quality out.mesh").exit_code == 2);
+  CHECK(sandbox.run("check out.mesh --quality none/b.csv").exit_code == 1);
+}
+
 TEST_CASE("check without sense", "[apps]") {
   const Sandbox sandbox;
   pgdr_test::check_fails(sandbox, "check out.mesh --radius-edge-ratio 0", 2, {"--radius-edge-ratio"});

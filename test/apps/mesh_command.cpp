@@ -52,11 +52,17 @@ TEST_CASE("the keys of --stats are stable", "[apps]") {
     CHECK(stats[key].is_number_unsigned());
   }
   for (const char* key :
-       {"max_radius_edge_ratio", "mean_radius_edge_ratio", "max_circumradius", "min_dihedral_deg"}) {
+       {"max_radius_edge_ratio", "mean_radius_edge_ratio", "max_circumradius", "min_dihedral_deg", "max_dihedral_deg"}) {
     INFO(key);
     REQUIRE(stats.contains(key));
     CHECK(stats[key].get<double>() > 0);
   }
+  for (const char* key : {"edge_ratio", "aspect_ratio", "mean_ratio", "scaled_jacobian"}) {
+    INFO(key);
+    CHECK(stats[key]["worst"].get<double>() > 0);
+    CHECK(stats[key]["mean"].get<double>() > 0);
+  }
+  CHECK(stats["dihedral_histogram"]["counts"].size() == 36);
   CHECK(stats["vertices"].get<int>() > 12);
   CHECK(stats["max_radius_edge_ratio"].get<double>() <= 2 + 1e-9);
   CHECK(stats["max_circumradius"].get<double>() <= 0.5 + 1e-9);

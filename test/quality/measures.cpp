@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/quality/measures.h>
+#include <pgdr/quality/shape_measures.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -31,6 +34,34 @@ TEST_CASE("The corner of a cube has its closed-form measures", "[quality]") {
   for (std::size_t i = 0; i < 3; ++i) REQUIRE(angles[i] == Approx(90));
   for (std::size_t i = 3; i < 6; ++i) REQUIRE(angles[i] == Approx(oblique));
   REQUIRE(pgdr::smallest_dihedral_angle_deg(o, x, y, z) == Approx(oblique));
+}
+
+TEST_CASE("Verdict's measures have their closed forms", "[quality]") {
+  const pgdr::Shape_measures regular = pgdr::shape_measures(a, b, c, d);
+  for (const double one : {regular.edge_ratio, regular.aspect_ratio, regular.mean_ratio, regular.scaled_jacobian}) REQUIRE(one == Approx(1));
+
+  std::array<P, 4> corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  std::array<std::size_t, 4> order{0, 1, 2, 3};
+  do {  // whichever corner comes first
+    const P &o = corner[order[0]], &x = corner[order[1]], &y = corner[order[2]], &z = corner[order[3]];
+    const double sign = pgdr::signed_volume(o, x, y, z) > 0 ? 1 : -1;
+    const pgdr::Shape_measures m = pgdr::shape_measures(o, x, y, z);
+    REQUIRE(m.edge_ratio == Approx(std::sqrt(2.0)));
+    if (sign > 0)
+      REQUIRE(m.aspect_ratio == Approx((3 + std::sqrt(3.0)) / std::sqrt(12.0)));
+    else
+      REQUIRE(std::isinf(m.aspect_ratio));
+    REQUIRE(m.mean_ratio == Approx(sign * 4 / 3.0 * std::pow(0.25, 1 / 3.0)));
+    REQUIRE(m.scaled_jacobian == Approx(sign * std::sqrt(0.5)));
+  } while (std::ranges::next_permutation(order).found);
+
+  const P flat{1, 1, 0};
+  const pgdr::Shape_measures none = pgdr::shape_measures(corner[0], corner[1], corner[2], flat);
+  REQUIRE(std::isinf(none.aspect_ratio));
+  REQUIRE((none.mean_ratio == 0 && none.scaled_jacobian == 0));
+  REQUIRE(none.edge_ratio == Approx(std::sqrt(2.0)));
+  const pgdr::Shape_measures point = pgdr::shape_measures(flat, flat, flat, flat);
+  REQUIRE((std::isinf(point.edge_ratio) && std::isinf(point.aspect_ratio) && point.mean_ratio == 0 && point.scaled_jacobian == 0));
 }
 
 TEST_CASE("Slivers are measured exactly", "[quality]") {

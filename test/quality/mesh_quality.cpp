@@ -9,6 +9,7 @@
 #include <random>
 
 #include <pgdr/quality/measures.h>
+#include <pgdr/quality/shape_measures.h>
 
 #include "catch.h"
 #include "lattice_mesh.h"
@@ -44,6 +45,7 @@ TEST_CASE("Mesh quality counts and sums", "[quality]") {
   REQUIRE(q.mean_radius_edge_ratio > std::sqrt(6.0) / 4);
   REQUIRE(q.mean_radius_edge_ratio < q.max_radius_edge_ratio);
   REQUIRE(q.min_dihedral_deg > 0);
+  REQUIRE((1 < q.aspect_ratio.mean && q.aspect_ratio.mean < q.aspect_ratio.worst));
 }
 
 TEST_CASE("Measures of a mesh with one corner of a cube", "[quality]") {
@@ -57,7 +59,7 @@ TEST_CASE("Measures of a mesh with one corner of a cube", "[quality]") {
   REQUIRE(q.min_dihedral_deg == Approx(std::atan(std::sqrt(2.0)) * 180 / std::acos(-1.0)));
   REQUIRE(q.max_dihedral_deg == Approx(90));
   REQUIRE(q.ratio_histogram[3] == 1);
-  REQUIRE(q.dihedral_histogram[5] == 3);
+  REQUIRE(q.dihedral_histogram[10] == 3);
   REQUIRE(pgdr::mesh_quality({}).tetrahedra == 0);
 }
 
@@ -85,8 +87,8 @@ TEST_CASE("Mesh quality agrees with the measures of the tetrahedra one by one", 
       const double x = uniform(), y = uniform();
       add({{{0, 0, 0}, {1, 0.3, 0}, {x, y, 1}, {x + shortness * uniform(), y + shortness * uniform(), 1}}});
     }
-  for (int k = 1; k < 18; ++k) {
-    const double angle = k * std::acos(-1.0) / 18;
+  for (int k = 1; k < 36; ++k) {
+    const double angle = k * std::acos(-1.0) / 36;
     add({{{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {std::cos(angle), std::sin(angle), 0.5}}});
   }
 
@@ -94,6 +96,8 @@ TEST_CASE("Mesh quality agrees with the measures of the tetrahedra one by one", 
   pgdr::Mesh_quality naive;
   naive.min_dihedral_deg = 180;
   naive.shortest_edge = 1e300;
+  naive.mean_ratio.worst = naive.scaled_jacobian.worst = 1;
+  std::array<double, 3> sums{};
   double volume = 0;
   for (const auto& t : mesh.tetrahedra) {
     const auto &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
@@ -105,10 +109,26 @@ TEST_CASE("Mesh quality agrees with the measures of the tetrahedra one by one", 
     for (const double angle : pgdr::dihedral_angles_deg(a, b, c, d)) {
       naive.min_dihedral_deg = std::min(naive.min_dihedral_deg, angle);
       naive.max_dihedral_deg = std::max(naive.max_dihedral_deg, angle);
-      ++naive.dihedral_histogram[std::size_t(std::min(angle / 10, 17.0))];
+      ++naive.dihedral_histogram[std::size_t(std::min(angle / 5, 35.0))];
     }
     volume += pgdr::signed_volume(a, b, c, d);
+    const pgdr::Shape_measures m = pgdr::shape_measures(a, b, c, d);
+    naive.edge_ratio.worst = std::max(naive.edge_ratio.worst, m.edge_ratio);
+    naive.aspect_ratio.worst = std::max(naive.aspect_ratio.worst, m.aspect_ratio);
+    naive.mean_ratio.worst = std::min(naive.mean_ratio.worst, m.mean_ratio);
+    naive.scaled_jacobian.worst = std::min(naive.scaled_jacobian.worst, m.scaled_jacobian);
+    sums[0] += m.edge_ratio;
+    sums[1] += m.mean_ratio;
+    sums[2] += m.scaled_jacobian;
   }
+  CHECK(q.edge_ratio.worst == naive.edge_ratio.worst);
+  CHECK(q.aspect_ratio.worst == Approx(naive.aspect_ratio.worst).epsilon(1e-9));
+  CHECK(q.mean_ratio.worst == Approx(naive.mean_ratio.worst).epsilon(1e-9));
+  CHECK(q.scaled_jacobian.worst == Approx(naive.scaled_jacobian.worst).epsilon(1e-9));
+  const double count = double(mesh.tetrahedra.size());
+  CHECK(q.edge_ratio.mean == Approx(sums[0] / count).epsilon(1e-9));
+  CHECK(q.mean_ratio.mean == Approx(sums[1] / count).epsilon(1e-9));
+  CHECK(q.scaled_jacobian.mean == Approx(sums[2] / count).epsilon(1e-9));
   CHECK(q.dihedral_histogram == naive.dihedral_histogram);
   CHECK(q.ratio_histogram == naive.ratio_histogram);
   CHECK(q.max_radius_edge_ratio == naive.max_radius_edge_ratio);

@@ -25,6 +25,14 @@ struct Mesh_quality {
   double min_dihedral_deg = 0;
   double max_dihedral_deg = 0;
 
+  /// Of one of the `Shape_measures`, over all tetrahedra.
+  struct Measure {
+    double worst = 0;
+    double mean = 0;
+  };
+  Measure edge_ratio, aspect_ratio;  ///< worst: the largest
+  Measure mean_ratio, scaled_jacobian;  ///< worst: the smallest
+
   double volume = 0;                              ///< sum of the signed volumes
   std::map<std::int32_t, double> region_volumes;  ///< by region id
   std::map<std::int32_t, std::size_t> region_tetrahedra;
@@ -33,10 +41,9 @@ struct Mesh_quality {
   std::array<std::uint64_t, 5> tetrahedra_below{};
   static constexpr std::array<double, 5> small_angles_deg{1, 5, 10, 14, 20};
 
-  /// All six dihedral angles of every tetrahedron: bin i counts [10 i, 10 (i + 1)) degrees, the last one 180
-  /// too.
-  std::array<std::uint64_t, 18> dihedral_histogram{};
-  static constexpr double dihedral_bin_deg = 10;
+  /// All six dihedral angles of every tetrahedron: bin i counts [5 i, 5 (i + 1)) degrees, the last one 180 too.
+  std::array<std::uint64_t, 36> dihedral_histogram{};
+  static constexpr double dihedral_bin_deg = 5;
   /// Radius-edge ratios: bin i counts [0.25 i, 0.25 (i + 1)), the last one everything above too.
   std::array<std::uint64_t, 16> ratio_histogram{};
   static constexpr double ratio_bin = 0.25;

@@ -32,6 +32,11 @@ struct Sliver_statistics {
   double parallel_seconds = 0;  ///< in which there was work for several threads
 };
 
+struct Optimization_statistics {
+  std::size_t rounds = 0;
+  std::size_t moved = 0;        ///< vertices, as often as they were
+};
+
 /// What one run of `refine_mesh_3` did.
 struct Run_statistics {
   Stop_reason stop = Stop_reason::finished;
@@ -41,6 +46,7 @@ struct Run_statistics {
   std::size_t unrecovered = 0;         ///< subsegments and subfacets that the mesh lacks (0 unless stopped)
   std::size_t volumes_left_out = 0;    ///< with gaps in their boundary when conforming was stopped; they have no tetrahedra
   Sliver_statistics slivers;
+  Optimization_statistics optimization;
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
   Schedule_statistics schedule;
 };

@@ -14,6 +14,7 @@
 #include <pgdr/quality/exempt_angles.h>
 #include <pgdr/quality/mesh_quality.h>
 #include <pgdr/report/format.h>
+#include <pgdr/report/print_quality.h>
 #include <pgdr/report/run_statistics.h>
 #include <pgdr/repair/repair.h>
 #include <pgdr/simplify/planarize.h>
@@ -39,6 +40,7 @@ struct Run_summary {
   std::size_t volumes_left_out = 0;
   unsigned threads = 1;
   Sliver_statistics slivers;
+  Optimization_statistics optimization;
   Schedule_statistics schedule;
   double serial_share = 0;  ///< `serial_share(Run_statistics)`
   std::vector<std::pair<std::string, double>> seconds;  ///< per phase, in order of execution
@@ -114,11 +116,7 @@ inline std::string planarization_text(const Planarization& p) {
 /// Writes the summary for people: one property a line.
 inline void print_summary(std::ostream& out, const Run_summary& run) {
   const Mesh_quality& quality = run.quality;
-  const auto line = [&out](const char* name, const std::string& value, const std::string& remark = {}) {
-    out << std::left << std::setw(18) << name << std::right << std::setw(13) << value;
-    if (!remark.empty()) out << "  " << remark;
-    out << '\n';
-  };
+  const auto line = [&out](const char* name, const std::string& value, const std::string& remark = {}) { print_figure(out, name, value, remark); };
   if (!run.repair.is_none()) out << std::left << std::setw(18) << "repaired" << std::right << repair_text(run.repair) << '\n';
   if (!run.simplification.is_none())
     line("simplified", with_separators(run.simplification.facets), "facets: " + simplification_text(run.simplification));
@@ -130,17 +128,13 @@ inline void print_summary(std::ostream& out, const Run_summary& run) {
        "in " + counted(quality.region_tetrahedra.size(), "region", "regions"));
   line("triangles", with_separators(quality.triangles), "on facets");
   line("edges", with_separators(quality.edges), "on segments");
-  line("radius-edge ratio", significant(quality.max_radius_edge_ratio),
-       "largest, " + significant(quality.mean_radius_edge_ratio) + " on average");
-  line("circumradius", significant(quality.max_circumradius), "largest");
-  std::string below;
-  for (std::size_t i = 0; i < quality.tetrahedra_below.size(); ++i)
-    below += (i == 0 ? "" : ", ") + with_separators(quality.tetrahedra_below[i]) + " < " + significant(Mesh_quality::small_angles_deg[i], 2);
-  line("dihedral angle", significant(quality.min_dihedral_deg), "degrees, smallest; tetrahedra with one " + below);
+  print_quality(out, quality);
   if (run.slivers.found > 0)
     line("slivers", with_separators(run.slivers.left),
          "left of " + with_separators(run.slivers.found) + "; " + counted(run.slivers.moved, "vertex was", "vertices were") + " moved, " +
              with_separators(run.slivers.added) + " added");
+  if (run.optimization.rounds > 0)
+    line("optimized", with_separators(run.optimization.moved), "moves of vertices in " + counted(run.optimization.rounds, "round", "rounds"));
   if (run.exempt_tetrahedra > 0)
     line("exempt", with_separators(run.exempt_tetrahedra),
          "tetrahedra over the bound, at small angles of the input");

@@ -13,6 +13,7 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/vertex_hole_3.h>
+#include <pgdr/slivers/average_shape.h>
 #include <pgdr/slivers/directions.h>
 #include <pgdr/slivers/tetrahedron_judge.h>
 
@@ -51,6 +52,27 @@ class Vertex_mover_3 {
     return move(v) ? Outcome::moved : Outcome::stays;
   }
 
+  /// Moves v towards the place that optimal Delaunay triangulation has for it (Chen and Holst, Comput. Methods Appl. Mech. Engrg. 200, 2011,
+  /// with the density of the mesh itself), if the tetrahedra that change are better on average afterwards, and none has a smaller dihedral
+  /// angle than the wanted one unless one had that before. `foreign`: as above.
+  Outcome smooth(Vertex_handle v, double wanted) {
+    constexpr double least_way = 0.02;  // of the shortest edge at the vertex: less changes no average that anybody sees
+    constexpr double parts[] = {1, 0.5};
+    is_foreign_ = false;
+    if (!territory_.leads_on(v)) return Outcome::foreign;
+    if (!hole_.find(v)) return hole_.is_foreign() ? Outcome::foreign : Outcome::stays;
+    const double limit = std::max(measure_star(), wanted) + rounding;
+    const Vec_3 from = position(v), way = middle_of_circumcenters() - from;
+    if (!(length(way) > least_way * shortest_) || !hole_.fill()) return Outcome::stays;
+    refused_at_ = 0;
+    measured_filling_.assign(hole_.filling().size(), unmeasured);
+    for (const double part : parts) {
+      place_ = from + part * way;
+      if (worst_at(place_, limit) < limit && is_better_at_place()) return move(v) ? Outcome::moved : Outcome::stays;
+    }
+    return is_foreign_ ? Outcome::foreign : Outcome::stays;
+  }
+
   /// Whether the last move left no tetrahedron at the vertex above the wanted cosine.
   bool is_cured() const { return is_cured_; }
 
@@ -64,6 +86,8 @@ class Vertex_mover_3 {
  private:
   static constexpr double refused = Tetrahedron_judge<Criteria>::refused;
   static constexpr double unmeasured = -2;  ///< less than any cosine
+  /// The tetrahedra that are made have their corners in another order, which is rounded differently.
+  static constexpr double rounding = 1e-12;
 
   double measure_star() {
     double worst = -1;
@@ -91,12 +115,24 @@ class Vertex_mover_3 {
     return ((dot(p[apex] - a, n) < 0 ? -1 : 1) / l) * n;
   }
 
+  Vec_3 middle_of_circumcenters() const {
+    Vec_3 sum;
+    for (const Cell_handle c : hole_.star()) sum = sum + tetrahedron_ball(tetrahedron_points(c)).center;
+    return (1 / static_cast<double>(hole_.star().size())) * sum;
+  }
+
+  /// Whether the tetrahedra that `worst_at` made at the place are better on average than those that would go.
+  bool is_better_at_place() const {
+    Average_shape before;
+    for (const Cell_handle c : hole_.star()) before.add(tetrahedron_points(c));
+    for (const Cell_handle c : outside_) before.add(tetrahedron_points(c));
+    return made_.value() > before.value();
+  }
+
   /// Looks for a place: the first that is good enough, else the best that is better than what there is.
   bool search(const Vec_3& from, double now, double wanted) {
     refused_at_ = 0;
     measured_filling_.assign(hole_.filling().size(), unmeasured);
-    // The tetrahedra that are made have their corners in another order, which is rounded differently.
-    constexpr double rounding = 1e-12;
     is_cured_ = try_all(from, wanted - rounding, true);
     if (is_cured_) return true;
     measured_filling_.assign(hole_.filling().size(), unmeasured);
@@ -145,12 +181,17 @@ class Vertex_mover_3 {
       is_any |= in_conflict_[k];
     }
     if (!is_any) return refused;
+    made_ = {};
     for (std::size_t k = 0; k < filling.size(); ++k)
-      if (!in_conflict_[k] && (worst = std::max(worst, measured_filling(k, limit))) >= limit) return refused;
+      if (!in_conflict_[k]) {
+        if ((worst = std::max(worst, measured_filling(k, limit))) >= limit) return refused;
+        made_.add(hole_.points_of(filling[k]));
+      }
     const std::int32_t subdomain = hole_.star().front()->subdomain();
     const auto face = [&](Tetrahedron_points corners, std::size_t i) {
       corners[i] = at;
       worst = std::max(worst, judge_(corners, subdomain, limit));
+      made_.add(corners);
       return worst < limit;
     };
     for (std::size_t k = 0; k < filling.size(); ++k)
@@ -246,6 +287,7 @@ class Vertex_mover_3 {
   double shortest_ = 0;
   Vec_3 steepest_;
   std::size_t refused_at_ = 0;  ///< in the star, where the last place was: likely the next one, too
+  Average_shape made_;          ///< of what is new at the last place
   Vec_3 place_;
   double nearest_ = 0;
   bool is_foreign_ = false, is_cured_ = false;
