@@ -179,6 +179,32 @@ Sizing_box parse_sizing_box(const std::string& text) {
   return box;
 }
 
+Sizing_ball parse_sizing_ball(const std::string& text) {
+  const auto fail = [&text](const std::string& why) { return Usage_error("--size-ball: '" + text + "' " + why); };
+  const std::string form = "is not of the form x,y,z,r:R";
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw fail(form);
+  std::array<double, 4> c{};
+  if (!read_numbers(std::string_view(text.data(), colon), c)) throw fail(form + " with finite numbers");
+  Sizing_ball ball{{c[0], c[1], c[2]}, c[3], 0};
+  if (!read_all(std::string_view(text).substr(colon + 1), ball.radius)) throw fail(form);
+  if (!(ball.extent >= 0)) throw fail("has a radius r below 0");
+  if (!(ball.radius > 0) || std::isinf(ball.radius)) throw fail("has a size R that is not positive");
+  return ball;
+}
+
+Sizes_near_surface parse_sizes_near_surface(const std::string& text) {
+  const auto fail = [&text](const std::string& why) { return Usage_error("--size-near-surface: '" + text + "' " + why); };
+  std::string numbers = text;
+  const bool has_two_colons = std::ranges::count(numbers, ':') == 2 && numbers.find(',') == std::string::npos;
+  std::ranges::replace(numbers, ':', ',');
+  std::array<double, 3> c{};
+  if (!has_two_colons || !read_numbers(numbers, c)) throw fail("is not of the form R0:R1:D with finite numbers");
+  if (!(0 < c[0] && c[0] <= c[1])) throw fail("needs sizes 0 < R0 <= R1");
+  if (!(c[1] - c[0] < c[2])) throw fail("lets sizes grow by as much as the distance or more: R1 - R0 has to be less than D");
+  return {c[0], c[1], c[2]};
+}
+
 void require_extension(const std::string& option, const std::filesystem::path& path,
                        const std::vector<std::string>& extensions) {
   std::string extension = path.extension().string();

@@ -11,7 +11,7 @@
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/plc.h>
 #include <pgdr/parameters.h>
-#include <pgdr/sizing/box_sizing_field.h>
+#include <pgdr/sizing/sizing_places.h>
 
 namespace pgdr::app {
 
@@ -69,6 +69,17 @@ Plc_region<Default_kernel> parse_region(const std::string& text);
 
 /// The value of `--refine-box`: "x0,y0,z0,x1,y1,z1:R" with x0 < x1, y0 < y1, z0 < z1 and R > 0.
 Sizing_box parse_sizing_box(const std::string& text);
+
+/// The value of `--size-ball`: "x,y,z,r:R" with r >= 0 and R > 0.
+Sizing_ball parse_sizing_ball(const std::string& text);
+
+/// Sizes by the distance from the input's facets.
+struct Sizes_near_surface {
+  double near = 0, far = 0, reach = 0;
+};
+
+/// The value of `--size-near-surface`: "R0:R1:D" with 0 < R0 <= R1 and R1 - R0 < D, all finite.
+Sizes_near_surface parse_sizes_near_surface(const std::string& text);
 
 /// Throws `Usage_error` unless `path` ends in one of `extensions`, like ".vtu" (in any case).
 void require_extension(const std::string& option, const std::filesystem::path& path,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -21,6 +22,7 @@
 #include "arguments.h"
 #include "command.h"
 #include "exit_code.h"
+#include "messages.h"
 #include "read_domain.h"
 
 namespace pgdr::app {
@@ -45,7 +47,9 @@ int run_check(const Check_arguments& arguments) {
   arguments.domain.check();  // nonsense is refused even where it is not needed
   require_extension("MESH", arguments.mesh, {".mesh"});
   if (!arguments.quality.empty()) {
-    require_distinct_files({arguments.mesh}, {arguments.quality});
+    std::vector<std::filesystem::path> inputs(arguments.inputs.begin(), arguments.inputs.end());
+    inputs.emplace_back(arguments.mesh);
+    require_distinct_files(inputs, {arguments.quality});
     check_writable(arguments.quality);
   }
 
@@ -71,6 +75,8 @@ int run_check(const Check_arguments& arguments) {
     mesh = scaled_to(std::move(mesh), mesh.exponent + exponent_for(mesh));
     print_quality(std::cout, mesh_quality(mesh));
     if (!arguments.quality.empty()) write_quality(mesh, arguments.quality);
+  } else if (!arguments.quality.empty()) {
+    print_message("there are no tetrahedra that could be measured, and '" + arguments.quality + "' was not written");
   }
   const auto failed =
       std::count_if(lines.begin(), lines.end(), [](const Check_line& line) { return !line.passed; });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -24,7 +25,7 @@
 #include <pgdr/report/phase_timer.h>
 #include <pgdr/report/progress_line.h>
 #include <pgdr/report/run_summary.h>
-#include <pgdr/sizing/box_sizing_field.h>
+#include <pgdr/sizing/command_line_sizing.h>
 
 #include "arguments.h"
 #include "command.h"
@@ -46,6 +47,9 @@ struct Mesh_arguments {
   std::vector<std::string> outputs;
   std::string size;
   std::vector<std::string> refine_boxes;
+  std::vector<std::string> size_balls;
+  std::string size_near_surface;
+  std::string gradation;
   std::string radius_edge_ratio;
   std::string placement;
   std::string min_dihedral;
@@ -87,6 +91,19 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       ->type_name("BOX:R")
       ->allow_extra_args(false);
   parser
+      .add_option("--size-ball", arguments.size_balls,
+                  "Upper bound R of the circumradius inside a ball, as x,y,z,r:R; r may be 0; repeatable")
+      ->type_name("BALL:R")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--size-near-surface", arguments.size_near_surface,
+                  "Upper bound of the circumradius by the circumcenter's distance from the input's facets: R0 on them, R1 at the distance D and beyond, linear in between")
+      ->type_name("R0:R1:D");
+  parser
+      .add_option("--gradation", arguments.gradation,
+                  "Let the bounds of boxes and balls grow by G for each unit of distance around them, instead of ending there (default: no bound around them)")
+      ->type_name("G");
+  parser
       .add_option("--radius-edge-ratio", arguments.radius_edge_ratio,
                   "Upper bound of circumradius over shortest edge, at least 2 (default 2)")
       ->type_name("B");
@@ -101,7 +118,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       ->type_name("A");
   parser
       .add_option("--optimize", arguments.optimize,
-                  "Rounds in which vertices inside move to make tetrahedra better on average, without smaller angles than --min-dihedral (default 0)")
+                  "Rounds in which vertices inside move to make tetrahedra better on average, making no angle below --min-dihedral where there is none around (default 0)")
       ->type_name("N");
   arguments.domain.add_to(parser);
   add_problems_option(parser, arguments.problems);
@@ -140,24 +157,52 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       ->type_name("FILE");
 }
 
-Command_line_sizing sizing_field(const Mesh_arguments& arguments) {
-  Uniform_sizing_field base;
-  if (!arguments.size.empty()) base = Uniform_sizing_field(parse_positive("--size", arguments.size));
+Command_line_sizing::Local local_sizes(const Mesh_arguments& arguments) {
+  Uniform_sizing_field everywhere;
+  if (!arguments.size.empty()) everywhere = Uniform_sizing_field(parse_positive("--size", arguments.size));
   std::vector<Sizing_box> boxes;
   for (const std::string& box : arguments.refine_boxes) boxes.push_back(parse_sizing_box(box));
-  return Command_line_sizing(base, std::move(boxes));
+  std::vector<Sizing_ball> balls;
+  for (const std::string& ball : arguments.size_balls) balls.push_back(parse_sizing_ball(ball));
+  double gradation = Command_line_sizing::Local::no_gradation;
+  if (!arguments.gradation.empty()) {
+    gradation = parse_positive("--gradation", arguments.gradation);
+    if (!(gradation < 1)) throw Usage_error("--gradation must be less than 1, because nothing bounds sizes that grow faster than the distance, not " + arguments.gradation);
+    if (boxes.empty() && balls.empty()) throw Usage_error("--gradation is of boxes and balls: it needs --refine-box or --size-ball");
+  } else if (std::ranges::any_of(balls, [](const Sizing_ball& ball) { return ball.extent == 0; })) {
+    throw Usage_error("--size-ball: a ball with a radius of 0 needs --gradation, because no circumcenter is exactly there");
+  }
+  return Command_line_sizing::Local(everywhere, std::move(boxes), std::move(balls), gradation);
 }
 
-/// A box that is nowhere near the domain is a slip, more often than not.
-void warn_of_boxes_outside(const Command_line_sizing& sizing, const Domain& domain) {
+Distance_sizing_field sizes_near_surface(const Domain& domain, const Sizes_near_surface& sizes) {
   const double unit = unit_of(domain);
-  for (const Sizing_box& box : sizing.boxes()) {
+  std::vector<Distance_sizing_field::Triangle> triangles;
+  for (const auto& facet : domain.facets)
+    for (const auto& t : facet.triangles) {
+      Distance_sizing_field::Triangle& triangle = triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& p = domain.vertices[t[i]];
+        triangle[i] = {unit * p.x(), unit * p.y(), unit * p.z()};
+      }
+    }
+  return Distance_sizing_field(triangles, sizes.near, sizes.far, sizes.reach);
+}
+
+/// A place that is nowhere near the domain is a slip, more often than not.
+void warn_of_places_outside(const Command_line_sizing::Local& sizes, const Domain& domain) {
+  const double unit = unit_of(domain);
+  const auto warn = [&](const std::string& what, const auto& lower, const auto& upper) {
     bool is_outside = false;
-    for (std::size_t k = 0; k < 3; ++k) is_outside |= box.lower[k] > unit * domain.upper[k] || box.upper[k] < unit * domain.lower[k];
-    if (is_outside)
-      print_message("warning: the refined box from " + significant(box.lower[0]) + "," + significant(box.lower[1]) + "," +
-                    significant(box.lower[2]) + " lies outside of the input");
-  }
+    for (std::size_t k = 0; k < 3; ++k) is_outside |= lower(k) > unit * domain.upper[k] || upper(k) < unit * domain.lower[k];
+    if (is_outside) print_message("warning: the refined " + what + " lies outside of the input");
+  };
+  const auto text = [](const std::array<double, 3>& p) { return significant(p[0]) + "," + significant(p[1]) + "," + significant(p[2]); };
+  for (const Sizing_box& box : sizes.boxes())
+    warn("box from " + text(box.lower), [&](std::size_t k) { return box.lower[k]; }, [&](std::size_t k) { return box.upper[k]; });
+  for (const Sizing_ball& ball : sizes.balls())
+    warn("ball around " + text(ball.center), [&](std::size_t k) { return ball.center[k] - ball.extent; },
+         [&](std::size_t k) { return ball.center[k] + ball.extent; });
 }
 
 /// In bytes; 0: none.
@@ -203,7 +248,9 @@ void check_outputs(const Mesh_arguments& arguments) {
 }
 
 int run_mesh(const Mesh_arguments& arguments) {
-  const Command_line_sizing sizing = sizing_field(arguments);
+  Command_line_sizing sizing(local_sizes(arguments));
+  std::optional<Sizes_near_surface> near_surface;
+  if (!arguments.size_near_surface.empty()) near_surface = parse_sizes_near_surface(arguments.size_near_surface);
   Parameters p = parameters(arguments);
   arguments.domain.check();
   check_outputs(arguments);
@@ -228,7 +275,8 @@ int run_mesh(const Mesh_arguments& arguments) {
       print_or_throw(problems);
     });
   }
-  warn_of_boxes_outside(sizing, *domain);
+  warn_of_places_outside(sizing.local(), *domain);
+  if (near_surface) sizing = Command_line_sizing(sizing.local(), {sizes_near_surface(*domain, *near_surface)});
   if (p.max_vertices == 0) require_memory(expected_vertices(*domain, sizing, p.ignore_region_sizes), p.max_memory);
   timer.end_phase("validation");
   if (p.time_limit > 0) p.time_limit = std::max(p.time_limit - timer.total_seconds(), 1e-3);

@@ -28,50 +28,88 @@ double size_of(const Volume& v, bool ignore_region_sizes) {
 
 double count(double volume, double size) { return volume / size / size / size; }
 
-/// What the k-th box adds, which is finer than the later ones.
-double count_in_box(const Domain& domain, const Volumes_3<Default_kernel>& volumes, const std::vector<Sizing_box>& boxes,
-                    std::size_t k) {
-  constexpr std::size_t samples = 8;  // along each axis
+/// The integral of `density(p, volume)` over the part of a box that is in material, by samples.
+double integral(const Domain& domain, const Volumes_3<Default_kernel>& volumes, const Sizing_box& box, std::size_t samples, const auto& density) {
   std::array<double, 3> lower{}, edge{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    lower[axis] = std::max(boxes[k].lower[axis], domain.lower[axis]);
-    edge[axis] = std::min(boxes[k].upper[axis], domain.upper[axis]) - lower[axis];
+    lower[axis] = std::max(box.lower[axis], domain.lower[axis]);
+    edge[axis] = std::min(box.upper[axis], domain.upper[axis]) - lower[axis];
     if (!(edge[axis] > 0)) return 0;
   }
-  const double part = edge[0] * edge[1] * edge[2] / (samples * samples * samples);
+  const double part = edge[0] * edge[1] * edge[2] / static_cast<double>(samples * samples * samples);
   double sum = 0;
   for (std::size_t i = 0; i < samples * samples * samples; ++i) {
     const std::array<std::size_t, 3> at{i % samples, i / samples % samples, i / (samples * samples)};
     std::array<double, 3> p{};
     for (std::size_t axis = 0; axis < 3; ++axis)
-      p[axis] = lower[axis] + edge[axis] * (static_cast<double>(at[axis]) + 0.5) / samples;
-    const auto finer = boxes.begin() + static_cast<std::ptrdiff_t>(k);
-    if (std::any_of(boxes.begin(), finer, [&p](const Sizing_box& box) { return box.contains(p); })) continue;
-    const Default_kernel::Point_3 point(p[0], p[1], p[2]);
-    const std::size_t v = volumes.locate(point);
-    if (v != Volumes_3<Default_kernel>::none && volumes.volumes()[v].material) sum += count(part, boxes[k].radius);
+      p[axis] = lower[axis] + edge[axis] * (static_cast<double>(at[axis]) + 0.5) / static_cast<double>(samples);
+    const std::size_t v = volumes.locate({p[0], p[1], p[2]});
+    if (v != Volumes_3<Default_kernel>::none && volumes.volumes()[v].material) sum += part * density(p, volumes.volumes()[v]);
   }
   return sum;
+}
+
+/// Of the layer in which sizes grow with the distance from a surface, which samples may miss: at it they are near / (1 - slope).
+double count_near(const Distance_sizing_field& field, double volume, double unit) {
+  const double near = field.near() / unit, far = field.far() / unit, slope = (field.far() - field.near()) / field.reach();
+  const double touching = near / (1 - slope);
+  if (!(touching < far)) return 0;
+  const double across = (1 / touching / touching - 1 / far / far) / (2 * slope);
+  return std::min(field.area() / unit / unit * across, count(volume, near));
+}
+
+/// `place` in the coordinates of the domain.
+Sizing_box scaled(Sizing_box place, double unit) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    place.lower[axis] /= unit;
+    place.upper[axis] /= unit;
+  }
+  place.radius /= unit;
+  return place;
+}
+
+Sizing_box box_around(const Sizing_ball& ball) {
+  Sizing_box box{ball.center, ball.center, ball.radius};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.lower[axis] -= ball.extent;
+    box.upper[axis] += ball.extent;
+  }
+  return box;
 }
 
 }  // namespace
 
 double expected_vertices(const Domain& domain, const Command_line_sizing& sizing, bool ignore_region_sizes) {
-  const double unit = unit_of(domain), size = sizing.outer()(Default_kernel::Point_3(0, 0, 0)) / unit;
-  std::vector<Sizing_box> boxes = sizing.boxes();
-  if (size == infinity && boxes.empty() && domain.regions.empty()) return 0;  // nothing asks for a size: the volumes need not be found
+  constexpr std::size_t in_place = 8, in_all = 16;  // samples along each axis
+  const Command_line_sizing::Local& local = sizing.local();
+  const double unit = unit_of(domain), everywhere = local.outer().radius() / unit;
+  std::vector<Sizing_box> places;
+  for (const Sizing_box& box : local.boxes()) places.push_back(scaled(box, unit));
+  for (const Sizing_ball& ball : local.balls())
+    if (ball.extent > 0) places.push_back(scaled(box_around(ball), unit));
+  const bool is_gradual = !sizing.near_surfaces().empty() || local.gradation() < Command_line_sizing::Local::no_gradation;
+  if (everywhere == infinity && places.empty() && !is_gradual && domain.regions.empty()) return 0;  // nothing asks for a size: the volumes need not be found
   const Volumes_3<Default_kernel> volumes(domain);
-  for (Sizing_box& box : boxes) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.lower[axis] /= unit;
-      box.upper[axis] /= unit;
-    }
-    box.radius /= unit;
-  }
-  double sum = 0;
+  const auto without_places = [&](const Volume& v) { return std::min(everywhere, size_of(v, ignore_region_sizes)); };
+  double sum = 0, volume = 0;
   for (const Volume& v : volumes.volumes())
-    if (v.material) sum += count(v.volume, std::min(size, size_of(v, ignore_region_sizes)));
-  for (std::size_t k = 0; k < boxes.size(); ++k) sum += count_in_box(domain, volumes, boxes, k);
+    if (v.material) {
+      sum += count(v.volume, without_places(v));
+      volume += v.volume;
+    }
+  // What the fields ask for beyond that, of each point once: in the first of the places that hold it, or outside of all.
+  const auto more = [&](const std::array<double, 3>& p, const Volume& v, std::size_t place) {
+    const auto end = places.begin() + static_cast<std::ptrdiff_t>(place);
+    if (std::any_of(places.begin(), end, [&p](const Sizing_box& box) { return box.contains(p); })) return 0.0;
+    const double size = sizing(Default_kernel::Point_3(unit * p[0], unit * p[1], unit * p[2])) / unit, coarse = without_places(v);
+    return size < coarse ? count(1, size) - count(1, coarse) : 0.0;
+  };
+  const auto more_in = [&](const Sizing_box& box, std::size_t place, std::size_t samples) {
+    return integral(domain, volumes, box, samples, [&](const auto& p, const Volume& v) { return more(p, v, place); });
+  };
+  for (std::size_t k = 0; k < places.size(); ++k) sum += more_in(places[k], k, in_place);
+  if (is_gradual) sum += more_in({domain.lower, domain.upper, 0}, places.size(), in_all);
+  for (const Distance_sizing_field& field : sizing.near_surfaces()) sum = std::max(sum, count_near(field, volume, unit));
   return sum;
 }
 

@@ -2,7 +2,7 @@
 #ifndef PGDR_APPS_SIZE_ESTIMATE_H
 #define PGDR_APPS_SIZE_ESTIMATE_H
 
-#include <pgdr/sizing/box_sizing_field.h>
+#include <pgdr/sizing/command_line_sizing.h>
 
 #include "read_domain.h"
 

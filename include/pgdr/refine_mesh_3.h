@@ -30,7 +30,7 @@
 #include <pgdr/report/format.h>
 #include <pgdr/schedule/epoch_scheduler.h>
 #include <pgdr/schedule/limit_watch.h>
-#include <pgdr/sizing/box_sizing_field.h>
+#include <pgdr/sizing/command_line_sizing.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
 #include <pgdr/slivers/optimize_mesh_3.h>
@@ -145,6 +145,7 @@ class Mesher_3 {
               .run(parameters_.optimization_rounds, notify);
     });
     if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = reason_of(watch_.reached());
+    if (mesh_.statistics().slivers.left > 0) mesh_.statistics().slivers.left = count_slivers(wanted);
     if (limited_ > 0) limited_ = count_limited();
   }
 
@@ -176,6 +177,13 @@ class Mesher_3 {
         if (it->subdomain() != 0) f(typename Tr::Cell_handle(it));
       return 0;
     });
+  }
+
+  /// Tetrahedra with a dihedral angle below the one with this cosine.
+  std::size_t count_slivers(double cosine) const {
+    std::atomic<std::size_t> n = 0;
+    for_meshed_cells([&](auto c) { n += largest_dihedral_cosine(tetrahedron_points(c)) > cosine; });
+    return n;
   }
 
   std::size_t count_limited() const {
@@ -263,7 +271,7 @@ class Mesher_3 {
 /// Ends for every domain without acute angles between facets (Shewchuk 1998); else a limit may end it, see
 /// `Run_statistics::stop`. \pre `validate_domain_3(domain)` finds no fault.
 /// `placement` says where in its selection ball the Steiner point of a tetrahedron goes.
-/// Throws `std::invalid_argument` for parameters without sense.
+/// Throws `std::invalid_argument` for parameters without sense, `Sizing_error` for sizes that are negative or no numbers.
 template <class K, class Sizing, PointPlacement Placement>
   requires SizingField<Sizing, K>
 Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters,

@@ -51,7 +51,7 @@ void check_target(const fs::path& target, const fs::path& resolved) {
   if (fs::is_directory(status)) cannot_write(target, "it is a folder");
   if (!fs::exists(status)) return;
   if (!fs::is_regular_file(status)) cannot_write(target, "it is not a regular file");
-  if (::access(resolved.c_str(), W_OK) != 0) cannot_write(target, std::strerror(errno));
+  if (::access(resolved.c_str(), W_OK) != 0) cannot_write(target, std::generic_category().message(errno));
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ void Atomic_file::put(const char* next, std::size_t size) {
   }
 }
 
-void Atomic_file::fail(int error) const { cannot_write(target_, std::strerror(error)); }
+void Atomic_file::fail(int error) const { cannot_write(target_, std::generic_category().message(error)); }
 
 void Atomic_file::discard() noexcept {
   if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));

@@ -187,7 +187,8 @@ class Ply_checker {
         fail(Kind::degenerate_facet,
              owner() + " has a list of " + std::to_string(static_cast<long long>(size)) + " values");
       }
-      for (double i = 0; i < size; ++i) {
+      const auto values = static_cast<std::uint64_t>(std::min(1e18, size));  // the file ends before
+      for (std::uint64_t i = 0; i < values; ++i) {
         const double value = read(property.type, owner);
         if (corners && (value < 0 || value >= static_cast<double>(result_.vertices))) {
           fail(Kind::bad_index, owner() + " names vertex " + std::to_string(static_cast<long long>(value)) +

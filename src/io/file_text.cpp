@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 namespace pgdr::io_detail {
 namespace {
@@ -30,9 +31,9 @@ struct Descriptor {
 
 File_text::File_text(const std::filesystem::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.value < 0) cannot_read(path, errno == ENOENT ? "there is no such file" : std::strerror(errno));
+  if (file.value < 0) cannot_read(path, errno == ENOENT ? "there is no such file" : std::generic_category().message(errno));
   struct stat status;
-  if (::fstat(file.value, &status) != 0) cannot_read(path, std::strerror(errno));
+  if (::fstat(file.value, &status) != 0) cannot_read(path, std::generic_category().message(errno));
   if (S_ISDIR(status.st_mode)) cannot_read(path, "it is a folder");
 
   // A pipe has no size; it and a file that grows meanwhile are read in growing steps.
@@ -47,7 +48,7 @@ File_text::File_text(const std::filesystem::path& path) {
     }
     const ssize_t count = ::read(file.value, bytes_.get() + size_, capacity - size_);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) cannot_read(path, std::strerror(errno));
+    if (count < 0) cannot_read(path, std::generic_category().message(errno));
     if (count == 0) return;
     size_ += static_cast<std::size_t>(count);
   }

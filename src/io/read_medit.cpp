@@ -113,7 +113,7 @@ class Medit_reader {
   std::size_t begin_section(const char* what, std::size_t columns, const char*& section) {
     if (section != nullptr) fail(Kind::unreadable, "a section is there a second time");
     const long long count = integer("the number of rows");
-    const auto room = static_cast<long long>(static_cast<std::size_t>(end_ - next_) / (2 * columns) + 1);
+    const long long room = (end_ - next_) / static_cast<long long>(2 * columns) + 1;
     if (count < 0 || count > room) {
       fail(Kind::unreadable,
            "the section announces " + std::to_string(count) + " rows, but the file is too short for that");

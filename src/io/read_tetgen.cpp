@@ -52,7 +52,7 @@ class Tetgen_reader {
           in.fail(Kind::bad_index, "the first vertex has number " + std::to_string(number) + ", not 0 or 1");
         }
         plc_.first_index = vertex.number = static_cast<std::size_t>(number);
-      } else if (number != static_cast<long long>(plc_.first_index + i)) {
+      } else if (number != static_cast<long long>(plc_.first_index) + static_cast<long long>(i)) {
         in.fail(Kind::bad_index, "vertex number " + std::to_string(number) + " stands where " +
                                      std::to_string(plc_.first_index + i) + " is due");
       }

@@ -32,9 +32,10 @@ char* format_tetrahedron(const Indexed_mesh_3& mesh, std::size_t i, char* out) {
   const Shape_measures m = shape_measures(a, b, c, d, determinant);
   out = put_char(put_number(out, i), ',');
   out = put_number(out, i < mesh.tetrahedron_references.size() ? mesh.tetrahedron_references[i] : 0);
-  for (const double value : {std::ldexp(determinant / 6, 3 * mesh.exponent), unit_of(mesh) * std::sqrt(squared_circumradius(a, b, c, d)),
-                             radius_edge_ratio(a, b, c, d), *std::ranges::min_element(angles), *std::ranges::max_element(angles),
-                             m.edge_ratio, m.aspect_ratio, m.mean_ratio, m.scaled_jacobian})
+  for (const double value : {std::ldexp(determinant / 6, 3 * mesh.exponent), unit_of(mesh) * std::sqrt(squared_circumradius(a, b, c, d))})
+    out = put_number(put_char(out, ','), value);
+  for (const double value : {radius_edge_ratio(a, b, c, d), *std::ranges::min_element(angles), *std::ranges::max_element(angles), m.edge_ratio,
+                             m.aspect_ratio, m.mean_ratio, m.scaled_jacobian})
     out = put_number(put_char(out, ','), static_cast<float>(value));
   for (const auto* marked : {&mesh.exempt, &mesh.unrefined})
     out = put_char(put_char(out, ','), std::ranges::binary_search(*marked, i) ? '1' : '0');

@@ -189,8 +189,7 @@ class Quality_sum {
     bool exact = false;
     for (std::size_t i = 0; i < 6; ++i) {
       found[i] = bins.find(shape.cosines[i]);
-      exact |= (found[i] == Dihedral_bins::unclear) | (shape.cosines[i] > max_cosine_) |
-               (shape.cosines[i] < min_cosine_);
+      exact = exact || found[i] == Dihedral_bins::unclear || shape.cosines[i] > max_cosine_ || shape.cosines[i] < min_cosine_;
     }
     if (exact) {
       add_exact_angles(a, b, c, d);
@@ -201,7 +200,7 @@ class Quality_sum {
       return;
     }
     for (const int bin : found) ++q_.dihedral_histogram[std::size_t(bin)];
-    // The small angles are boundaries of bins, or within the first.
+    // Below 20 degrees, which of the small angles it is below.
     if (*std::ranges::min_element(found) <= last_small_bin) count_small(smallest_dihedral_angle_deg(a, b, c, d));
   }
 

@@ -34,7 +34,7 @@ Progress_line::Progress_line(bool enabled, const std::atomic<bool>* interrupt, s
     : stream_(enabled ? stream : nullptr), interrupt_(interrupt), is_terminal_(enabled && isatty(fileno(stream)) == 1) {
   if (stream_ == nullptr) return;
   try {
-    thread_ = std::jthread([this](std::stop_token stop) { run(std::move(stop)); });
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
   } catch (const std::system_error&) {
     // no more threads: the calls write what they can
   }
@@ -80,7 +80,7 @@ void Progress_line::set_pace(Pace pace) {
 }
 
 /// Takes no memory: it runs while there may be none left.
-void Progress_line::run(std::stop_token stop) {
+void Progress_line::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     wake_.wait_for(lock, stop, pace_.look, [&, pace = pace_.look] { return pace != pace_.look; });

@@ -22,6 +22,22 @@ TEST_CASE("refined boxes that make no sense are refused", "[apps]") {
   }
 }
 
+TEST_CASE("balls and sizes near surfaces are read as typed", "[apps]") {
+  const pgdr::Sizing_ball ball = app::parse_sizing_ball("-1,2.5,1e3,0:0.25");
+  CHECK(ball.center == std::array<double, 3>{-1, 2.5, 1000});
+  CHECK((ball.extent == 0 && ball.radius == 0.25));
+  for (const char* text : {"", ":", "0,0,0,1", "0,0,0:1", "0,0,0,1,1:1", "0,0,0,-1:1", "0,0,0,1:0", "0,0,0,1:-1", "0,0,0,1:nan", "0,0,0,1:inf", "0,0,inf,1:1", "0,0,0,1:1x"}) {
+    INFO(text);
+    CHECK_THROWS_AS(app::parse_sizing_ball(text), app::Usage_error);
+  }
+  const app::Sizes_near_surface sizes = app::parse_sizes_near_surface("0.1:0.5:2");
+  CHECK((sizes.near == 0.1 && sizes.far == 0.5 && sizes.reach == 2));
+  for (const char* text : {"", "::", "0.1:0.5", "0.1,0.5,2", "0.1:0.5,2", "0.1:0.5:2:3", "0:0.5:2", "0.6:0.5:2", "0.1:inf:2", "0.1:0.5:0", "0.1:0.5:0.4", "0.1:0.5:-1", "nan:1:1", "a:1:1"}) {
+    INFO(text);
+    CHECK_THROWS_AS(app::parse_sizes_near_surface(text), app::Usage_error);
+  }
+}
+
 TEST_CASE("seeds are read as typed", "[apps]") {
   CHECK(app::parse_point("--hole", "-1,2.5,1e3") == std::array<double, 3>{-1, 2.5, 1000});
   const auto plain = app::parse_region("1,2,3:-4"), sized = app::parse_region("1,2,3:7:0.25");

@@ -63,6 +63,7 @@ TEST_CASE("mesh and check say the same of the quality, and write it", "[apps]") 
     CHECK(line(mesh.out) == line(check.out));
   }
   CHECK(sandbox.run("check out.mesh --quality out.mesh").exit_code == 2);
+  CHECK(sandbox.run("check out.mesh --plc b.csv --quality b.csv").exit_code == 2);
   CHECK(sandbox.run("mesh " + shape("cube.poly") + " -o out.mesh --quality out.mesh").exit_code == 2);
   CHECK(sandbox.run("check out.mesh --quality none/b.csv").exit_code == 1);
 }

@@ -129,6 +129,15 @@ TEST_CASE("sizes bound the circumradii", "[apps]") {
   CHECK(coarse < corner);
   CHECK(corner < fine);
   CHECK(tetrahedra("--refine-box=-1,-1,-1,2,2,2:0.1 --refine-box -2,-2,-2,0.5,2,2:0.4") == fine);
+  const int ball = tetrahedra("--size 0.4 --size-ball 0.1,0.1,0.1,0.3:0.1");
+  CHECK((coarse < ball && ball < fine));
+  const int graded = tetrahedra("--size 0.4 --size-ball 0.1,0.1,0.1,0.3:0.1 --gradation 0.2");
+  CHECK((ball < graded && graded < fine));
+  CHECK(tetrahedra("--size-ball 0.5,0.5,0.5,0:0.1 --gradation 1e-9") == fine);  // hardly grows
+  const int near = tetrahedra("--size-near-surface 0.1:0.4:0.4");
+  CHECK((2 * coarse < near && near < fine));
+  CHECK(tetrahedra("--size-near-surface 0.1:0.1:1") == fine);
+  CHECK(tetrahedra("--size 0.1 --size-near-surface 0.4:0.4:1") == fine);
 }
 
 TEST_CASE("a vertex budget stops the run with exit code 4 and a valid mesh", "[apps]") {

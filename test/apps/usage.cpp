@@ -66,6 +66,14 @@ TEST_CASE("options of mesh that make no sense", "[apps]") {
   check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,1", 2, {"--refine-box"});
   check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,0:0.1", 2, {"--refine-box", "empty"});
   check_fails(sandbox, mesh + "--refine-box 0,0,0,1,1,1:0", 2, {"--refine-box", "positive"});
+  check_fails(sandbox, mesh + "--size-ball 0,0,0,1", 2, {"--size-ball", "x,y,z,r:R"});
+  check_fails(sandbox, mesh + "--size-near-surface 1:2", 2, {"--size-near-surface", "R0:R1:D"});
+  check_fails(sandbox, mesh + "--size-near-surface 2:1:1", 2, {"--size-near-surface", "R0 <= R1"});
+  check_fails(sandbox, mesh + "--size-near-surface 1:2:1", 2, {"--size-near-surface", "less than D"});
+  check_fails(sandbox, mesh + "--gradation 0", 2, {"--gradation", "positive"});
+  check_fails(sandbox, mesh + "--gradation 1 --refine-box 0,0,0,1,1,1:0.1", 2, {"--gradation", "less than 1"});
+  check_fails(sandbox, mesh + "--gradation 0.5", 2, {"--gradation", "--size-ball"});
+  check_fails(sandbox, mesh + "--size-ball 0,0,0,0:1", 2, {"--size-ball", "--gradation"});
 }
 
 TEST_CASE("outputs that make no sense", "[apps]") {

@@ -45,9 +45,12 @@ TEST_CASE("facets that pass through each other") {
   const auto problems = validate_domain_3(make_domain_3(plc));
   REQUIRE(problems.size() == 4);
   CHECK(count(problems, Kind::self_intersection) == 4);
-  CHECK(problems[0].message == "facets 6 and 7 intersect at (2, 1.25, 0.5)");
+  // In which triangles of the squares, CGAL decides.
+  const auto is_between = [](const std::string& s, const std::string& front, const std::string& back) { return s.starts_with(front) && s.ends_with(back); };
+  CAPTURE(problems[0].message, problems[3].message);
+  CHECK(is_between(problems[0].message, "facets 6 and 7 intersect at (2, ", ", 0.5)"));
   CHECK(problems[0].facets == std::vector<Index>{5, 6});
-  CHECK(problems[3].message == "facets 6 and 10 intersect at (2, 1.5, 1.25) (4 pairs in all)");
+  CHECK(is_between(problems[3].message, "facets 6 and 10 intersect at (2, 1.5, ", ") (4 pairs in all)"));
   const auto first = validate_domain_3(make_domain_3(plc), 1);
   REQUIRE(first.size() == 1);
   CHECK(first[0].message.find("4 pairs in all") != std::string::npos);

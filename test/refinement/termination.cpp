@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <pgdr/io/read_plc.h>
 #include <pgdr/refine_mesh_3.h>
@@ -38,6 +41,38 @@ TEST_CASE("A sizing field that goes to zero has no end, and one that does not ha
     CHECK(pgdr::refine_mesh_3(box(), size_near_middle(0), up_to(limit)).statistics().stop == pgdr::Stop_reason::vertex_budget);
   const auto mesh = pgdr::refine_mesh_3(box(), size_near_middle(0.01), up_to(80000));
   CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
+}
+
+TEST_CASE("A size that is negative or no number is an error that names the point", "[refinement]") {
+  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    for (const unsigned threads : {1u, 3u}) {
+      pgdr::Parameters parameters;
+      parameters.threads = threads;
+      const Sizing_function sizing = [bad](const Kernel::Point_3& p) { return p.x() > 0.75 && p.y() > 0.75 ? bad : 0.1; };
+      try {
+        pgdr::refine_mesh_3(box(), sizing, parameters);
+        FAIL("a mesh was made");
+      } catch (const pgdr::Sizing_error& e) {
+        double x = 0, y = 0;
+        CHECK(std::sscanf(e.what(), "the size at %lf,%lf,", &x, &y) == 2);
+        CHECK((x > 0.75 && y > 0.75));
+        CHECK(std::string(e.what()).find(std::isnan(bad) ? "nan" : "-1") != std::string::npos);
+      }
+    }
+}
+
+TEST_CASE("Sizes by distance hold where a circumradius is just the size far away", "[refinement]") {
+  // All circumradii of a 2 by 3 by 6 box are 3.5, and its middle is 1 from its largest facets.
+  const pgdr::Plc plc = box({0, 0, 0}, {2, 3, 6});
+  std::vector<pgdr::Distance_sizing_field::Triangle> triangles;
+  for (const double x : {0.0, 2.0}) triangles.insert(triangles.end(), {{{{x, 0, 0}, {x, 3, 0}, {x, 3, 6}}}, {{{x, 0, 0}, {x, 3, 6}, {x, 0, 6}}}});
+  for (const auto& [everywhere, far] : {std::pair{std::numeric_limits<double>::infinity(), 3.5}, {3.5, 8.0}}) {
+    const pgdr::Command_line_sizing sizing(pgdr::Command_line_sizing::Local(pgdr::Uniform_sizing_field(everywhere)),
+                                           {pgdr::Distance_sizing_field(triangles, 0.3, far, 10)});
+    const pgdr::Indexed_mesh_3 mesh = pgdr::indexed_mesh_3(pgdr::refine_mesh_3(plc, sizing));
+    CHECK(mesh.tetrahedra.size() > 100);
+    CHECK(oversized(mesh, sizing) == 0);
+  }
 }
 
 TEST_CASE("A ratio bound below 1 has no end, and one below 2 is refused", "[refinement]") {

@@ -42,7 +42,7 @@ Moved moved(const pgdr::Plc& plc, double size, std::size_t territories, double s
 
   std::vector<std::vector<Tr::Vertex_handle>> parts(territories);
   for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v)
-    if (v->in_dimension() == 3) parts[v->territory() - 1u].push_back(v);
+    if (v->in_dimension() == 3 && v->cell()->subdomain() != 0) parts[v->territory() - 1u].push_back(v);
   const auto place = [](Tr::Vertex_handle v) { return std::tuple(v->point().x(), v->point().y(), v->point().z()); };
   for (auto& part : parts) std::ranges::sort(part, {}, place);
 

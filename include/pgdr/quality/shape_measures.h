@@ -20,8 +20,8 @@ struct Shape_measures {
   double scaled_jacobian;  ///< 6 sqrt(2) times the volume over the largest product of three edges at a corner: 1 or less
 };
 
-/// The measures of the tetrahedron whose `orientation_determinant` is `determinant`, with relative errors below 1e-9. Mean ratio and
-/// scaled Jacobian have the sign of the volume and are 0 where that is.
+/// The measures of the tetrahedron whose `orientation_determinant` is `determinant`: the volume is exact but for rounding, all else is double
+/// arithmetic. Mean ratio and scaled Jacobian have the sign of the volume and are 0 where that is.
 inline Shape_measures shape_measures(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c,
                                      const std::array<double, 3>& d, double determinant) {
   namespace q = quality_detail;

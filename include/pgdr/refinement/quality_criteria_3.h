@@ -2,11 +2,15 @@
 #ifndef PGDR_REFINEMENT_QUALITY_CRITERIA_3_H
 #define PGDR_REFINEMENT_QUALITY_CRITERIA_3_H
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include <CGAL/number_utils.h>
+
 #include <pgdr/conforming/subdomains_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
+#include <pgdr/report/format.h>
 #include <pgdr/sizing/sizing_field.h>
 
 namespace pgdr {
@@ -37,17 +41,42 @@ class Quality_criteria_3 {
     const Subdomain& s = subdomains_[static_cast<std::size_t>(subdomain)];
     if (s.max_volume > 0 && b.volume > s.max_volume) return true;
     if (s.max_circumradius > 0 && b.squared_radius > s.max_circumradius * s.max_circumradius) return true;
+    if constexpr (LimitedSizingField<Sizing, K>) {
+      // What is within rounding of the radius, or not below it although the size may be, is decided by the size itself.
+      const double limit = std::sqrt(b.squared_radius) * (1 + 1e-9);
+      const typename K::Point_3 p = point(b.center);
+      const double r = checked(sizing_.size_if_below(p, limit * unit_), p) / unit_;
+      if (!(r < limit)) return false;
+      if (b.squared_radius > r * r) return true;
+    }
     const double r = size_at(b.center);
     return b.squared_radius > r * r;
   }
 
-  /// The sizing field, without the bounds of subdomains.
-  double size_at(const Vec_3& p) const { return sizing_(typename K::Point_3(p.x * unit_, p.y * unit_, p.z * unit_)) / unit_; }
+  /// The sizing field, without the bounds of subdomains. Throws `Sizing_error`.
+  double size_at(const Vec_3& center) const {
+    const typename K::Point_3 p = point(center);
+    return checked(sizing_(p), p) / unit_;
+  }
 
   double radius_edge_ratio() const { return radius_edge_ratio_; }
   const std::vector<Subdomain>& subdomains() const { return subdomains_; }
 
  private:
+  /// In the coordinates of the sizing field.
+  typename K::Point_3 point(const Vec_3& p) const { return {p.x * unit_, p.y * unit_, p.z * unit_}; }
+
+  static double checked(double size, const typename K::Point_3& p) {
+    if (!(size >= 0)) [[unlikely]] refuse(size, p);
+    return size;
+  }
+
+  [[noreturn]] static void refuse(double size, const typename K::Point_3& p) {
+    const auto coordinate = [](const auto& x) { return significant(CGAL::to_double(x), 6); };
+    throw Sizing_error("the size at " + coordinate(p.x()) + "," + coordinate(p.y()) + "," + coordinate(p.z()) + " is " + significant(size) +
+                       ": it has to be positive");
+  }
+
   double radius_edge_ratio_;
   double squared_ratio_;
   Sizing sizing_;

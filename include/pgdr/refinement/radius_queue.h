@@ -25,7 +25,8 @@ class Radius_queue {
   std::size_t size() const { return size_; }
 
   void push(Item item) {
-    classes_[std::ilogb(item.radius)].push(std::move(item));
+    auto& its_class = classes_[std::ilogb(item.radius)];
+    its_class.push(std::move(item));
     ++size_;
   }
 

@@ -46,7 +46,7 @@ class Progress_line {
   using Clock = std::chrono::steady_clock;
   using Text = std::array<char, 256>;
 
-  void run(std::stop_token stop);
+  void run(const std::stop_token& stop);
   void confirm_interrupt();
   void write_line();
   void write_in_place();

@@ -55,6 +55,7 @@ class Vertex_mover_3 {
   /// Moves v towards the place that optimal Delaunay triangulation has for it (Chen and Holst, Comput. Methods Appl. Mech. Engrg. 200, 2011,
   /// with the density of the mesh itself), if the tetrahedra that change are better on average afterwards, and none has a smaller dihedral
   /// angle than the wanted one unless one had that before. `foreign`: as above.
+  /// \pre v is inside of a volume
   Outcome smooth(Vertex_handle v, double wanted) {
     constexpr double least_way = 0.02;  // of the shortest edge at the vertex: less changes no average that anybody sees
     constexpr double parts[] = {1, 0.5};
@@ -184,7 +185,8 @@ class Vertex_mover_3 {
     made_ = {};
     for (std::size_t k = 0; k < filling.size(); ++k)
       if (!in_conflict_[k]) {
-        if ((worst = std::max(worst, measured_filling(k, limit))) >= limit) return refused;
+        worst = std::max(worst, measured_filling(k, limit));
+        if (worst >= limit) return refused;
         made_.add(hole_.points_of(filling[k]));
       }
     const std::int32_t subdomain = hole_.star().front()->subdomain();

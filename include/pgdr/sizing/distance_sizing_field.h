@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SIZING_DISTANCE_SIZING_FIELD_H
+#define PGDR_SIZING_DISTANCE_SIZING_FIELD_H
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <CGAL/number_utils.h>
+
+namespace pgdr {
+
+/// A sizing field by the distance from triangles: `near` on them, `far` at the distance `reach` and beyond, linear in between.
+///
+/// Sizes are those of circumcenters: a tetrahedron that touches the triangles has a circumradius of at most near / (1 - slope), with the
+/// slope (far - near) / reach, and only where that is below 1 is there a bound at all.
+///
+/// Distances are those of double arithmetic (CGAL's AABB tree), the same on every thread. Copies share the tree.
+class Distance_sizing_field {
+ public:
+  using Triangle = std::array<std::array<double, 3>, 3>;
+
+  /// Throws `std::invalid_argument` unless 0 < near <= far < infinity, far - near < reach < infinity and there is a triangle with an area.
+  Distance_sizing_field(const std::vector<Triangle>& triangles, double near, double far, double reach);
+
+  template <class Point_3>
+  double operator()(const Point_3& p) const {
+    return size_if_below(p, std::numeric_limits<double>::infinity());
+  }
+
+  /// As `LimitedSizingField` says; with infinity the size at p.
+  template <class Point_3>
+  double size_if_below(const Point_3& p, double limit) const {
+    return size_if_below(std::array{CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}, limit);
+  }
+  double size_if_below(const std::array<double, 3>& p, double limit) const;
+
+  /// From the nearest of the triangles, or `most` if that is less.
+  double distance(const std::array<double, 3>& p, double most = std::numeric_limits<double>::infinity()) const;
+
+  /// On the triangles.
+  double near() const { return near_; }
+  double far() const { return far_; }
+  double reach() const { return reach_; }
+  /// Of all triangles together.
+  double area() const;
+
+ private:
+  struct Tree;
+  std::shared_ptr<const Tree> tree_;
+  double near_, far_, reach_;
+};
+
+}  // namespace pgdr
+
+#endif
