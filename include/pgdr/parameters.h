@@ -42,7 +42,7 @@ struct Parameters {
   static constexpr double largest_min_dihedral = 60;  ///< the regular tetrahedron has 70.5
 
   /// Rounds in which every vertex inside is moved, if the tetrahedra around it get better on average and no dihedral angle falls below
-  /// `min_dihedral`, when everything else is done: for solvers that profit from the average, not only from the worst. A round takes about as long as the refinement.
+  /// `min_dihedral`, when everything else is done: for solvers that profit from the average, not only from the worst. A round takes up to one and a half times as long as the refinement (docs/robustness.md).
   std::size_t optimization_rounds = 0;
 
   /// Facets whose vertices lie this close to one plane, relative to the bounding box's diagonal, are fused.
