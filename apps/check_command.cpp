@@ -72,7 +72,8 @@ int run_check(const Check_arguments& arguments) {
               << line.detail << '\n';
   }
   if (checked.front().passed && !mesh.tetrahedra.empty()) {  // all indices in range, all coordinates numbers
-    mesh = scaled_to(std::move(mesh), mesh.exponent + exponent_for(mesh));
+    const int exponent = mesh.exponent + exponent_for(mesh);
+    mesh = scaled_to(std::move(mesh), exponent);
     print_quality(std::cout, mesh_quality(mesh));
     if (!arguments.quality.empty()) write_quality(mesh, arguments.quality);
   } else if (!arguments.quality.empty()) {

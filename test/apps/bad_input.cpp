@@ -203,7 +203,10 @@ TEST_CASE("coordinates near the ends of double's range are meshed, checked and r
     sandbox.write("cube.off", cube(("1e" + exponent).c_str()));
     CAPTURE(exponent);
     CHECK(sandbox.run("mesh --quiet cube.off --size 0.3e" + exponent + " -o out.mesh -o out.vtu --stats s.json").exit_code == 0);
-    CHECK(sandbox.run("check out.mesh --plc cube.off").exit_code == 0);
+    const Run check = sandbox.run("check out.mesh --plc cube.off");
+    CHECK(check.exit_code == 0);
+    CHECK(check.out.find(" inf") == std::string::npos);  // nor in the figures
+    CHECK(check.out.find("nan") == std::string::npos);
     const auto stats = nlohmann::json::parse(file_text(sandbox / "s.json"));
     CHECK(stats["tetrahedra"].get<int>() > 100);
     CHECK(stats["max_radius_edge_ratio"].get<double>() < 2);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -40,7 +41,7 @@ class Local_sizing_field {
     }
     for (const Sizing_ball& ball : balls_) {
       require_positive(ball.radius);
-      if (!(ball.extent >= 0) || ball.center != ball.center) throw std::invalid_argument("a refined ball is empty");
+      if (!(ball.extent >= 0) || std::ranges::any_of(ball.center, [](double x) { return std::isnan(x); })) throw std::invalid_argument("a refined ball is empty");
     }
     // Finest first: none of those that are not finer than what was found need be looked at.
     std::ranges::stable_sort(boxes_, {}, &Sizing_box::radius);
