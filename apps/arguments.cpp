@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -160,37 +161,38 @@ Plc_region<Default_kernel> parse_region(const std::string& text) {
   return region;
 }
 
-Sizing_box parse_sizing_box(const std::string& text) {
-  const auto fail = [&text](const std::string& why) -> Usage_error {
-    return Usage_error("--refine-box: '" + text + "' " + why);
-  };
-  const std::string form = "is not of the form x0,y0,z0,x1,y1,z1:R";
+namespace {
+
+/// A place and the size in it, as `form` says: N numbers with commas, a colon, R.
+template <std::size_t N>
+std::pair<std::array<double, N>, double> parse_sized_place(const std::string& option, const std::string& form, const std::string& text) {
+  const auto fail = [&](const std::string& why) { return Usage_error(option + ": '" + text + "' " + why); };
   const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) throw fail(form);
-  std::array<double, 6> c{};
-  if (!read_numbers(std::string_view(text.data(), colon), c)) throw fail(form + " with finite numbers");
-  Sizing_box box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, 0};
-  if (!read_all(std::string_view(text).substr(colon + 1), box.radius)) throw fail(form);
-  if (!(box.radius > 0) || std::isinf(box.radius)) throw fail("has a size R that is not positive");
+  if (colon == std::string::npos) throw fail("is not of the form " + form);
+  std::array<double, N> c{};
+  if (!read_numbers(std::string_view(text.data(), colon), c)) throw fail("is not of the form " + form + " with finite numbers");
+  double radius = 0;
+  if (!read_all(std::string_view(text).substr(colon + 1), radius)) throw fail("is not of the form " + form);
+  if (!(radius > 0) || std::isinf(radius)) throw fail("has a size R that is not positive");
+  return {c, radius};
+}
+
+}  // namespace
+
+Sizing_box parse_sizing_box(const std::string& text) {
+  const auto [c, radius] = parse_sized_place<6>("--refine-box", "x0,y0,z0,x1,y1,z1:R", text);
+  const Sizing_box box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, radius};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(box.lower[axis] < box.upper[axis]))
-      throw fail("is empty: the first corner must be below the second one");
+      throw Usage_error("--refine-box: '" + text + "' is empty: the first corner must be below the second one");
   }
   return box;
 }
 
 Sizing_ball parse_sizing_ball(const std::string& text) {
-  const auto fail = [&text](const std::string& why) { return Usage_error("--size-ball: '" + text + "' " + why); };
-  const std::string form = "is not of the form x,y,z,r:R";
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) throw fail(form);
-  std::array<double, 4> c{};
-  if (!read_numbers(std::string_view(text.data(), colon), c)) throw fail(form + " with finite numbers");
-  Sizing_ball ball{{c[0], c[1], c[2]}, c[3], 0};
-  if (!read_all(std::string_view(text).substr(colon + 1), ball.radius)) throw fail(form);
-  if (!(ball.extent >= 0)) throw fail("has a radius r below 0");
-  if (!(ball.radius > 0) || std::isinf(ball.radius)) throw fail("has a size R that is not positive");
-  return ball;
+  const auto [c, radius] = parse_sized_place<4>("--size-ball", "x,y,z,r:R", text);
+  if (!(c[3] >= 0)) throw Usage_error("--size-ball: '" + text + "' has a radius r below 0");
+  return {{c[0], c[1], c[2]}, c[3], radius};
 }
 
 Sizes_near_surface parse_sizes_near_surface(const std::string& text) {

@@ -179,17 +179,19 @@ class Mesher_3 {
     });
   }
 
-  /// Tetrahedra with a dihedral angle below the one with this cosine.
-  std::size_t count_slivers(double cosine) const {
+  std::size_t count_meshed(const auto& predicate) const {
     std::atomic<std::size_t> n = 0;
-    for_meshed_cells([&](auto c) { n += largest_dihedral_cosine(tetrahedron_points(c)) > cosine; });
+    for_meshed_cells([&](auto c) { n += predicate(c); });
     return n;
   }
 
+  /// Tetrahedra with a dihedral angle below the one with this cosine.
+  std::size_t count_slivers(double cosine) const {
+    return count_meshed([cosine](auto c) { return largest_dihedral_cosine(tetrahedron_points(c)) > cosine; });
+  }
+
   std::size_t count_limited() const {
-    std::atomic<std::size_t> n = 0;
-    for_meshed_cells([&n](auto c) { n += c->state() == Cell_state::limited; });
-    return n;
+    return count_meshed([](auto c) { return c->state() == Cell_state::limited; });
   }
 
   /// A stop leaves cells that nobody has looked at.
