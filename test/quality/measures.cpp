@@ -13,9 +13,10 @@ namespace {
 
 using P = std::array<double, 3>;
 
-const P a{1, 1, 1}, b{-1, 1, -1}, c{1, -1, -1}, d{-1, -1, 1};  // regular, edges 2 sqrt(2)
+const std::array<P, 4> regular_corners{P{1, 1, 1}, P{-1, 1, -1}, P{1, -1, -1}, P{-1, -1, 1}};  // edges 2 sqrt(2)
 
 TEST_CASE("The regular tetrahedron has its closed-form measures", "[quality]") {
+  const auto& [a, b, c, d] = regular_corners;
   REQUIRE(pgdr::signed_volume(a, b, c, d) == Approx(8.0 / 3));
   REQUIRE(pgdr::signed_volume(b, a, c, d) == Approx(-8.0 / 3));
   REQUIRE(pgdr::squared_circumradius(a, b, c, d) == Approx(3));
@@ -37,6 +38,7 @@ TEST_CASE("The corner of a cube has its closed-form measures", "[quality]") {
 }
 
 TEST_CASE("Verdict's measures have their closed forms", "[quality]") {
+  const auto& [a, b, c, d] = regular_corners;
   const pgdr::Shape_measures regular = pgdr::shape_measures(a, b, c, d);
   for (const double one : {regular.edge_ratio, regular.aspect_ratio, regular.mean_ratio, regular.scaled_jacobian}) REQUIRE(one == Approx(1));
 

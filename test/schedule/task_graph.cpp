@@ -56,7 +56,7 @@ TEST_CASE("Every task runs once, after all that precede it", "[schedule]") {
         ready = pgdr::run_task_graph(n, successors_of(graph), [&](std::size_t k) {
           again += begin[k] != 0;
           begin[k] = clock++;
-          for (volatile int spin = 0; spin < 200; spin = spin + 1) {
+          for (std::atomic<int> spin = 0; spin < 200; ++spin) {
           }
           end[k] = clock++;
         });
