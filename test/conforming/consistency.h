@@ -76,7 +76,7 @@ class Complex_audit {
     return 0.5 * pgdr::length(pgdr::cross(b - a, c - a));
   }
   static std::string name(const char* what, std::uint32_t slot) {
-    return what + (" " + std::to_string(slot));
+    return std::string(what).append(" ").append(std::to_string(slot));
   }
 
   std::string edge_of_subfacet(std::uint32_t t, std::size_t i) const {

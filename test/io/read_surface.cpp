@@ -29,7 +29,7 @@ std::string facet_lines(const std::string& prefix, bool counts, Index first, con
   std::string text;
   for (const Polygon& facet : pyramid_facets) {
     text += prefix + (counts ? std::to_string(facet.size()) : "");
-    for (const Index v : facet) text += " " + std::to_string(v + first);
+    for (const Index v : facet) text.append(" ").append(std::to_string(v + first));
     text += suffix + "\n";
   }
   return text;
