@@ -35,6 +35,7 @@ struct Shape {
   double squared_radius;
   double squared_shortest;
   std::array<double, 6> cosines;  ///< of the dihedral angles
+  Shape_measures measures;
 };
 
 /// The worst and the sum of one of the `Shape_measures`; it is better the larger it is, or the smaller.
@@ -42,8 +43,8 @@ template <bool larger_is_better>
 class Measure_sum {
  public:
   void add(double value) { add(value, value); }
-  void add(const Measure_sum& o) { add(o.worst_, o.sum_.value()); }
-  Mesh_quality::Measure over(std::size_t count) const { return {worst_, sum_.value() / double(count)}; }
+  void add(const Measure_sum& o) { add(o.worst_, o.sum_); }
+  Mesh_quality::Measure over(std::size_t count) const { return {worst_, sum_ / double(count)}; }
 
  private:
   void add(double worst, double sum) {
@@ -52,7 +53,7 @@ class Measure_sum {
   }
 
   double worst_ = larger_is_better ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
-  Compensated_sum sum_;
+  double sum_ = 0;  ///< not compensated: chunks are short, and there are few of them
 };
 
 /// The shape of a tetrahedron that is far from flat and has no needle of a face; false for all others.
@@ -86,6 +87,7 @@ bool find_shape(const P& a, const P& b, const P& c, const P& d, Shape& shape) {
                bcd = std::sqrt(squared_bcd);
   const double front = abc * abd, back = acd * bcd, inverse = 1 / (front * back);
   const double p = back * inverse, r = front * inverse;
+  shape.measures = shape_measures({uu, vv, ww, xx, yy, zz}, (abc + abd + acd + bcd) / 2, det);
   shape.cosines = {-q::dot(uv, wu) * p,
                    -q::dot(uv, vw) * (abd * bcd * inverse),
                    -q::dot(wu, vw) * (abc * bcd * inverse),
@@ -111,6 +113,7 @@ class Quality_sum {
       shape.determinant = orientation_determinant(a, b, c, d);
       shape.squared_radius = squared_circumradius(a, b, c, d);
       shape.squared_shortest = squared_shortest_edge(a, b, c, d);
+      shape.measures = shape_measures(a, b, c, d, shape.determinant);
       add_exact_angles(a, b, c, d);
     }
     const double squared_ratio = shape.squared_radius / shape.squared_shortest;
@@ -119,11 +122,10 @@ class Quality_sum {
     min_squared_edge_ = std::min(min_squared_edge_, shape.squared_shortest);
     const double ratio = std::sqrt(squared_ratio);
     ratios_ += ratio;
-    const Shape_measures measures = shape_measures(a, b, c, d, shape.determinant);
-    edge_ratio_.add(measures.edge_ratio);
-    aspect_ratio_.add(measures.aspect_ratio);
-    mean_ratio_.add(measures.mean_ratio);
-    scaled_jacobian_.add(measures.scaled_jacobian);
+    edge_ratio_.add(shape.measures.edge_ratio);
+    aspect_ratio_.add(shape.measures.aspect_ratio);
+    mean_ratio_.add(shape.measures.mean_ratio);
+    scaled_jacobian_.add(shape.measures.scaled_jacobian);
     count(q_.ratio_histogram, ratio, Mesh_quality::ratio_bin);
     Region& sum = region_sum(region);
     sum.volume += shape.determinant / 6;

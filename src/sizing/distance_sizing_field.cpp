@@ -74,7 +74,7 @@ double Distance_sizing_field::distance(const std::array<double, 3>& p, double mo
   return found == bound ? most : std::min(most, tree_->unit * std::sqrt(CGAL::squared_distance(query, found)));
 }
 
-double Distance_sizing_field::size_if_below(const std::array<double, 3>& p, double limit) const {
+double Distance_sizing_field::size_within(const std::array<double, 3>& p, double limit) const {
   if (near_ >= limit) return near_;
   if (far_ < limit && limit < infinity) return far_;
   // A hair more, so that what is at the border comes out above the limit.

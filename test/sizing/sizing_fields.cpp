@@ -145,7 +145,7 @@ TEST_CASE("with a limit it is known whether a size is below, wherever the surfac
         const Point q(p[0], p[1], p[2]);
         const double size = field(q);
         for (const double limit : {size * (1 + 1e-6), size * (1 - 1e-6), scale * 0.3 * r(random)}) {
-          const double found = field.size_if_below(q, limit);
+          const double found = field.size_if_below(q, [limit] { return limit; });
           REQUIRE((found < limit) == (size < limit));
           if (found < limit) REQUIRE(found >= size);
         }

@@ -20,32 +20,38 @@ struct Shape_measures {
   double scaled_jacobian;  ///< 6 sqrt(2) times the volume over the largest product of three edges at a corner: 1 or less
 };
 
-/// The measures of the tetrahedron whose `orientation_determinant` is `determinant`: the volume is exact but for rounding, all else is double
-/// arithmetic. Mean ratio and scaled Jacobian have the sign of the volume and are 0 where that is.
+/// The measures of a tetrahedron abcd with these squared lengths of ab, ac, ad, bc, bd, cd, this surface and this `orientation_determinant`:
+/// the volume is exact but for rounding, all else is double arithmetic. Mean ratio and scaled Jacobian have the sign of the volume and are 0
+/// where that is.
+inline Shape_measures shape_measures(const std::array<double, 6>& squared_edges, double surface, double determinant) {
+  const auto [ab, ac, ad, bc, bd, cd] = squared_edges;
+  const double longest = std::max(std::max(std::max(ab, ac), std::max(ad, bc)), std::max(bd, cd));
+  const double shortest = std::min(std::min(std::min(ab, ac), std::min(ad, bc)), std::min(bd, cd));
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Shape_measures m{shortest > 0 ? std::sqrt(longest / shortest) : infinity, infinity, 0, 0};
+  if (determinant == 0) return m;
+  constexpr double sqrt_2 = 1.41421356237309505, sqrt_6 = 2.44948974278317810;
+  // The inradius is three volumes over the surface.
+  if (determinant > 0) m.aspect_ratio = std::sqrt(longest) * surface / (sqrt_6 * determinant);
+  const double root = std::cbrt(determinant / 2);
+  m.mean_ratio = std::copysign(12 * root * root / (ab + ac + ad + bc + bd + cd), determinant);
+  const double corners = std::max(std::max(ab * ac * ad, ab * bc * bd), std::max(ac * bc * cd, ad * bd * cd));
+  m.scaled_jacobian = sqrt_2 * determinant / std::sqrt(corners);
+  return m;
+}
+
+/// The measures of the tetrahedron whose `orientation_determinant` is `determinant`.
 inline Shape_measures shape_measures(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c,
                                      const std::array<double, 3>& d, double determinant) {
   namespace q = quality_detail;
   const auto u = q::difference<double>(b, a), v = q::difference<double>(c, a), w = q::difference<double>(d, a);
   const auto x = q::difference<double>(c, b), y = q::difference<double>(d, b), z = q::difference<double>(d, c);
-  const double uu = q::dot(u, u), vv = q::dot(v, v), ww = q::dot(w, w), xx = q::dot(x, x), yy = q::dot(y, y), zz = q::dot(z, z);
-  const double longest = std::max({uu, vv, ww, xx, yy, zz}), shortest = std::min({uu, vv, ww, xx, yy, zz});
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Shape_measures m{shortest > 0 ? std::sqrt(longest / shortest) : infinity, infinity, 0, 0};
-  if (determinant == 0) return m;
-
   const auto twice_area = [](const q::Vector<double>& s, const q::Vector<double>& t) {
     const auto normal = q::cross(s, t);
     return std::sqrt(q::dot(normal, normal));
   };
-  constexpr double sqrt_2 = 1.41421356237309505, sqrt_24 = 4.89897948556635620;
-  if (determinant > 0) {  // the inradius is three volumes over the surface
-    const double twice_surface = twice_area(u, v) + twice_area(u, w) + twice_area(v, w) + twice_area(x, y);
-    m.aspect_ratio = std::sqrt(longest) * twice_surface / (sqrt_24 * determinant);
-  }
-  const double root = std::cbrt(determinant / 2);
-  m.mean_ratio = std::copysign(12 * root * root / (uu + vv + ww + xx + yy + zz), determinant);
-  m.scaled_jacobian = sqrt_2 * determinant / std::sqrt(std::max({uu * vv * ww, uu * xx * yy, vv * xx * zz, ww * yy * zz}));
-  return m;
+  return shape_measures({q::dot(u, u), q::dot(v, v), q::dot(w, w), q::dot(x, x), q::dot(y, y), q::dot(z, z)},
+                        (twice_area(u, v) + twice_area(u, w) + twice_area(v, w) + twice_area(x, y)) / 2, determinant);
 }
 
 inline Shape_measures shape_measures(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c,

@@ -42,12 +42,12 @@ class Quality_criteria_3 {
     if (s.max_volume > 0 && b.volume > s.max_volume) return true;
     if (s.max_circumradius > 0 && b.squared_radius > s.max_circumradius * s.max_circumradius) return true;
     if constexpr (LimitedSizingField<Sizing, K>) {
-      // What is within rounding of the radius, or not below it although the size may be, is decided by the size itself.
-      const double limit = std::sqrt(b.squared_radius) * (1 + 1e-9);
+      // A hair above the radius, so that rounding has no say in what is not below it.
+      const auto limit = [&] { return std::sqrt(b.squared_radius) * (1 + 1e-8) * unit_; };
       const typename K::Point_3 p = point(b.center);
-      const double r = checked(sizing_.size_if_below(p, limit * unit_), p) / unit_;
-      if (!(r < limit)) return false;
+      const double r = checked(sizing_.size_if_below(p, limit), p) / unit_;
       if (b.squared_radius > r * r) return true;
+      if (r * r > b.squared_radius * (1 + 3e-8)) return false;  // above the limit; next to it the size itself decides
     }
     const double r = size_at(b.center);
     return b.squared_radius > r * r;
@@ -71,7 +71,7 @@ class Quality_criteria_3 {
     return size;
   }
 
-  [[noreturn]] static void refuse(double size, const typename K::Point_3& p) {
+  [[noreturn, gnu::cold, gnu::noinline]] static void refuse(double size, const typename K::Point_3& p) {
     const auto coordinate = [](const auto& x) { return significant(CGAL::to_double(x), 6); };
     throw Sizing_error("the size at " + coordinate(p.x()) + "," + coordinate(p.y()) + "," + coordinate(p.z()) + " is " + significant(size) +
                        ": it has to be positive");

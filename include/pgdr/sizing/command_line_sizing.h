@@ -24,26 +24,37 @@ class Command_line_sizing {
 
   template <class Point_3>
   double operator()(const Point_3& p) const {
-    double bound = local_(p);
-    for (const Distance_sizing_field& f : near_surfaces_) bound = std::min(bound, f(p));
-    return bound;
+    const double bound = local_(p);
+    return near_surfaces_.empty() ? bound : exact_size(p, bound);
   }
 
   /// As `LimitedSizingField` says.
-  template <class Point_3>
-  double size_if_below(const Point_3& p, double limit) const {
-    double bound = local_(p);
-    for (const Distance_sizing_field& f : near_surfaces_) {
-      if (bound < limit) break;
-      bound = std::min(bound, f.size_if_below(p, limit));
-    }
-    return bound;
+  template <class Point_3, class Limit>
+  double size_if_below(const Point_3& p, const Limit& limit) const {
+    const double bound = local_(p);
+    return near_surfaces_.empty() ? bound : size_below(p, bound, limit);
   }
 
   const Local& local() const { return local_; }
   const std::vector<Distance_sizing_field>& near_surfaces() const { return near_surfaces_; }
 
  private:
+  // Not inlined, so that what most meshes ask is: the engine asks for every tetrahedron.
+  template <class Point_3>
+  [[gnu::noinline]] double exact_size(const Point_3& p, double bound) const {
+    for (const Distance_sizing_field& f : near_surfaces_) bound = std::min(bound, f(p));
+    return bound;
+  }
+
+  template <class Point_3, class Limit>
+  [[gnu::noinline]] double size_below(const Point_3& p, double bound, const Limit& limit) const {
+    for (const Distance_sizing_field& f : near_surfaces_) {
+      if (bound < limit()) break;
+      bound = std::min(bound, f.size_if_below(p, limit));
+    }
+    return bound;
+  }
+
   Local local_;
   std::vector<Distance_sizing_field> near_surfaces_;
 };

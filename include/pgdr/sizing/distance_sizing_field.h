@@ -26,15 +26,14 @@ class Distance_sizing_field {
 
   template <class Point_3>
   double operator()(const Point_3& p) const {
-    return size_if_below(p, std::numeric_limits<double>::infinity());
+    return size_within(coordinates(p), std::numeric_limits<double>::infinity());
   }
 
-  /// As `LimitedSizingField` says; with infinity the size at p.
-  template <class Point_3>
-  double size_if_below(const Point_3& p, double limit) const {
-    return size_if_below(std::array{CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}, limit);
+  /// As `LimitedSizingField` says.
+  template <class Point_3, class Limit>
+  double size_if_below(const Point_3& p, const Limit& limit) const {
+    return size_within(coordinates(p), limit());
   }
-  double size_if_below(const std::array<double, 3>& p, double limit) const;
 
   /// From the nearest of the triangles, or `most` if that is less.
   double distance(const std::array<double, 3>& p, double most = std::numeric_limits<double>::infinity()) const;
@@ -47,6 +46,14 @@ class Distance_sizing_field {
   double area() const;
 
  private:
+  template <class Point_3>
+  static std::array<double, 3> coordinates(const Point_3& p) {
+    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+  }
+
+  /// With infinity the size at p, else what `size_if_below` returns.
+  double size_within(const std::array<double, 3>& p, double limit) const;
+
   struct Tree;
   std::shared_ptr<const Tree> tree_;
   double near_, far_, reach_;

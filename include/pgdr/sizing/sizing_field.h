@@ -24,10 +24,10 @@ concept SizingField = std::copy_constructible<S> && requires(const S& sizing, co
   { sizing(p) } -> std::convertible_to<double>;
 };
 
-/// A sizing field whose values take a while: `size_if_below(p, limit)` is below the limit if and only if the size at p is, and is no less than
-/// the size then; that is all the refinement asks most of the time. Model: `Distance_sizing_field`.
+/// A sizing field whose values take a while: `size_if_below(p, limit)` is below `limit()` if and only if the size at p is, and is no less than
+/// the size then; that is all the refinement asks most of the time. The limit is a function since it takes a root. Model: `Distance_sizing_field`.
 template <class S, class K>
-concept LimitedSizingField = SizingField<S, K> && requires(const S& sizing, const typename K::Point_3& p, double limit) {
+concept LimitedSizingField = SizingField<S, K> && requires(const S& sizing, const typename K::Point_3& p, double (*limit)()) {
   { sizing.size_if_below(p, limit) } -> std::convertible_to<double>;
 };
 
