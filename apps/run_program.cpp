@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,11 @@ int parse_and_run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::Success& request) {
     return program.exit(request);  // --help, --version
-  } catch (const CLI::ExtrasError&) {
-    const auto is_parsed = [](const Command& command) { return command.parser->parsed(); };
-    const auto command = std::ranges::find_if(commands, is_parsed);
-    throw Usage_error(unknown_argument_text(command == commands.end() ? program : *command->parser) + " (--help tells what is possible)");
   } catch (const CLI::ParseError& error) {
-    throw Usage_error(std::string(error.what()) + " (--help tells what is possible)");
+    // A slip comes before what is missing, which may be missing because of it.
+    const auto command = std::ranges::find_if(commands, [](const Command& c) { return c.parser->parsed(); });
+    const auto unknown = unknown_option_text(command == commands.end() ? program : *command->parser);
+    throw Usage_error(unknown.value_or(error.what()) + " (--help tells what is possible)");
   }
   for (const Command& command : commands) {
     if (command.parser->parsed()) return command.run();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace pgdr::app {
@@ -28,11 +29,11 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string unknown_argument_text(const CLI::App& parser) {
+std::optional<std::string> unknown_option_text(const CLI::App& parser) {
   constexpr std::size_t most_slips = 3;
   const std::vector<std::string> unknown = parser.remaining(true);
   const auto option = std::ranges::find_if(unknown, [](const std::string& word) { return word.starts_with('-'); });
-  if (option == unknown.end()) return "'" + (unknown.empty() ? std::string() : unknown.front()) + "' was not expected";
+  if (option == unknown.end()) return std::nullopt;
   const std::string typed = option->substr(0, option->find('='));
   std::string nearest;
   std::size_t slips = std::min(most_slips, typed.size() / 2) + 1;

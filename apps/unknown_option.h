@@ -2,14 +2,15 @@
 #ifndef PGDR_APPS_UNKNOWN_OPTION_H
 #define PGDR_APPS_UNKNOWN_OPTION_H
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 namespace pgdr::app {
 
-/// What to say of the first argument that `parser` does not know, with the option that was probably meant.
-std::string unknown_argument_text(const CLI::App& parser);
+/// What to say of the first option that `parser` does not know, with the one that was probably meant; none where it knows all.
+std::optional<std::string> unknown_option_text(const CLI::App& parser);
 
 }  // namespace pgdr::app
 

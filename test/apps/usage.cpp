@@ -34,6 +34,7 @@ TEST_CASE("a command line that is incomplete or unknown", "[apps]") {
   check_fails(sandbox, "mesh -o out.vtu", 2, {"INPUT"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --fast", 2, {"--fast"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --siez 0.5", 2, {"no option --siez", "did you mean --size?"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " --siez 0.5", 2, {"did you mean --size?"});  // -o is missing, too
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --max-memroy=4G", 2, {"did you mean --max-memory?"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " " + shape("cube.poly") + " -o out.vtu", 2,
               {"cube.poly"});
