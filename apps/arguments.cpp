@@ -106,6 +106,12 @@ std::size_t parse_count(const std::string& option, const std::string& text, std:
   return value;
 }
 
+std::size_t parse_count_or_none(const std::string& option, const std::string& text) {
+  std::size_t value = 0;
+  if (!read_all(text, value)) throw Usage_error(option + " must be a whole number of at least 0, not " + text);
+  return value;
+}
+
 std::size_t parse_memory(const std::string& option, const std::string& text) {
   std::string bytes = text;
   std::size_t value = 0;

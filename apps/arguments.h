@@ -51,6 +51,8 @@ std::size_t parse_count(const std::string& option, const std::string& text);
 
 /// A whole number from 1 to `most`.
 std::size_t parse_count(const std::string& option, const std::string& text, std::size_t most);
+/// 0 as well.
+std::size_t parse_count_or_none(const std::string& option, const std::string& text);
 
 /// An amount of memory in bytes, at least 1: "500000000", "500M", "4GiB"; K, M, G and T are powers of 1024.
 std::size_t parse_memory(const std::string& option, const std::string& text);

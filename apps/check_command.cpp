@@ -47,6 +47,7 @@ int run_check(const Check_arguments& arguments) {
   arguments.domain.check();  // nonsense is refused even where it is not needed
   require_extension("MESH", arguments.mesh, {".mesh"});
   if (!arguments.quality.empty()) {
+    require_extension("--quality", arguments.quality, {".csv"});
     std::vector<std::filesystem::path> inputs(arguments.inputs.begin(), arguments.inputs.end());
     inputs.emplace_back(arguments.mesh);
     require_distinct_files(inputs, {arguments.quality});
@@ -75,7 +76,7 @@ int run_check(const Check_arguments& arguments) {
     const int exponent = mesh.exponent + exponent_for(mesh);
     mesh = scaled_to(std::move(mesh), exponent);
     print_quality(std::cout, mesh_quality(mesh));
-    if (!arguments.quality.empty()) write_quality(mesh, arguments.quality);
+    if (!arguments.quality.empty()) write_quality(mesh, arguments.quality, false);  // a .mesh does not say what was exempt
   } else if (!arguments.quality.empty()) {
     print_message("there are no tetrahedra that could be measured, and '" + arguments.quality + "' was not written");
   }

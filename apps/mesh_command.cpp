@@ -218,7 +218,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
     p.radius_edge_ratio = parse_ratio_bound("--radius-edge-ratio", arguments.radius_edge_ratio);
   if (!arguments.placement.empty()) p.placement = parse_placement(arguments.placement);
   if (!arguments.min_dihedral.empty()) p.min_dihedral = parse_dihedral_angle("--min-dihedral", arguments.min_dihedral);
-  if (!arguments.optimize.empty() && arguments.optimize != "0") p.optimization_rounds = parse_count("--optimize", arguments.optimize);
+  if (!arguments.optimize.empty()) p.optimization_rounds = parse_count_or_none("--optimize", arguments.optimize);
   p.coplanar_tolerance = arguments.domain.fusing_tolerance();
   p.triangulate_facets = arguments.domain.accepts_bent_polygons();
   p.ignore_region_sizes = arguments.ignore_region_sizes;
@@ -240,7 +240,10 @@ void check_outputs(const Mesh_arguments& arguments) {
   for (const std::string& output : arguments.outputs) require_extension("-o", output, {".vtu", ".mesh"});
   std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
   if (!arguments.stats.empty() && arguments.stats != "-") files.emplace_back(arguments.stats);
-  if (!arguments.quality.empty()) files.emplace_back(arguments.quality);
+  if (!arguments.quality.empty()) {
+    require_extension("--quality", arguments.quality, {".csv"});
+    files.emplace_back(arguments.quality);
+  }
   if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
   add_problem_file(arguments.problems, files);
   require_distinct_files({arguments.inputs.begin(), arguments.inputs.end()}, files);

@@ -40,7 +40,7 @@ int parse_and_run(int argc, char** argv) {
                                         add_info_command(program)};
   program.footer(
       "Exit codes: 0 done, 1 failed, 2 usage, 3 bad input, 4 stopped by a limit or Ctrl-C (the mesh is "
-      "valid).");
+      "valid, or the message says that none was written).");
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& request) {

@@ -28,23 +28,50 @@ double size_of(const Volume& v, bool ignore_region_sizes) {
 
 double count(double volume, double size) { return volume / size / size / size; }
 
-/// The integral of `density(p, volume)` over the part of a box that is in material, by samples.
-double integral(const Domain& domain, const Volumes_3<Default_kernel>& volumes, const Sizing_box& box, std::size_t samples, const auto& density) {
+struct Sample {
+  double density;
+  double size;
+};
+
+/// The integral of the density over the part of a box that is in material, by samples: `at(p, volume)` is one, and sizes change by no more than
+/// `slope` times the distance.
+double integral(const Domain& domain, const Volumes_3<Default_kernel>& volumes, const Sizing_box& box, std::size_t samples, double slope, const auto& at) {
+  constexpr std::size_t most_samples = 30'000;
+  struct Cell {
+    std::array<double, 3> center;
+    double scale;  // beside those of the first grid
+  };
   std::array<double, 3> lower{}, edge{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lower[axis] = std::max(box.lower[axis], domain.lower[axis]);
-    edge[axis] = std::min(box.upper[axis], domain.upper[axis]) - lower[axis];
+    edge[axis] = (std::min(box.upper[axis], domain.upper[axis]) - lower[axis]) / static_cast<double>(samples);
     if (!(edge[axis] > 0)) return 0;
   }
-  const double part = edge[0] * edge[1] * edge[2] / static_cast<double>(samples * samples * samples);
-  double sum = 0;
+  const double half_diagonal = std::hypot(edge[0], edge[1], edge[2]) / 2, part = edge[0] * edge[1] * edge[2];
+  std::vector<Cell> cells;
   for (std::size_t i = 0; i < samples * samples * samples; ++i) {
-    const std::array<std::size_t, 3> at{i % samples, i / samples % samples, i / (samples * samples)};
-    std::array<double, 3> p{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      p[axis] = lower[axis] + edge[axis] * (static_cast<double>(at[axis]) + 0.5) / static_cast<double>(samples);
-    const std::size_t v = volumes.locate({p[0], p[1], p[2]});
-    if (v != Volumes_3<Default_kernel>::none && volumes.volumes()[v].material) sum += part * density(p, volumes.volumes()[v]);
+    const std::array<std::size_t, 3> index{i % samples, i / samples % samples, i / (samples * samples)};
+    Cell& cell = cells.emplace_back();
+    cell.scale = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) cell.center[axis] = lower[axis] + edge[axis] * (static_cast<double>(index[axis]) + 0.5);
+  }
+  double sum = 0;
+  // Breadth first. A cell is divided where the size may be half of that at its center, or much more.
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const Cell cell = cells[k];
+    const auto& [x, y, z] = cell.center;
+    const std::size_t v = volumes.locate({x, y, z});
+    const bool is_inside = v != Volumes_3<Default_kernel>::none && volumes.volumes()[v].material;
+    const Sample sample = at(cell.center, volumes.volumes()[is_inside ? v : 0]);
+    if (sample.size < 2 * slope * cell.scale * half_diagonal && cells.size() < most_samples) {
+      for (int corner = 0; corner < 8; ++corner) {
+        Cell& child = cells.emplace_back(cell);
+        child.scale /= 2;
+        for (std::size_t axis = 0; axis < 3; ++axis) child.center[axis] += (corner >> axis & 1 ? 0.5 : -0.5) * child.scale * edge[axis];
+      }
+    } else if (is_inside && sample.density > 0) {
+      sum += part * cell.scale * cell.scale * cell.scale * sample.density;
+    }
   }
   return sum;
 }
@@ -55,7 +82,7 @@ double count_near(const Distance_sizing_field& field, double volume, double unit
   const double touching = near / (1 - slope);
   if (!(touching < far)) return 0;
   const double across = (1 / touching / touching - 1 / far / far) / (2 * slope);
-  return std::min(field.area() / unit / unit * across, count(volume, near));
+  return std::min(field.area(unit) * across, count(volume, near));
 }
 
 /// `place` in the coordinates of the domain.
@@ -90,6 +117,7 @@ double expected_vertices(const Domain& domain, const Command_line_sizing& sizing
   const bool is_gradual = !sizing.near_surfaces().empty() || local.gradation() < Command_line_sizing::Local::no_gradation;
   if (everywhere == infinity && places.empty() && !is_gradual && domain.regions.empty()) return 0;  // nothing asks for a size: the volumes need not be found
   const Volumes_3<Default_kernel> volumes(domain);
+  if (volumes.volumes().empty()) return 0;
   const auto without_places = [&](const Volume& v) { return std::min(everywhere, size_of(v, ignore_region_sizes)); };
   double sum = 0, volume = 0;
   for (const Volume& v : volumes.volumes())
@@ -98,14 +126,18 @@ double expected_vertices(const Domain& domain, const Command_line_sizing& sizing
       volume += v.volume;
     }
   // What the fields ask for beyond that, of each point once: in the first of the places that hold it, or outside of all.
-  const auto more = [&](const std::array<double, 3>& p, const Volume& v, std::size_t place) {
+  const auto more = [&](const std::array<double, 3>& p, const Volume& v, std::size_t place) -> Sample {
     const auto end = places.begin() + static_cast<std::ptrdiff_t>(place);
-    if (std::any_of(places.begin(), end, [&p](const Sizing_box& box) { return box.contains(p); })) return 0.0;
+    if (std::any_of(places.begin(), end, [&p](const Sizing_box& box) { return box.contains(p); })) return {0, infinity};
     const double size = sizing(Default_kernel::Point_3(unit * p[0], unit * p[1], unit * p[2])) / unit, coarse = without_places(v);
-    return size < coarse ? count(1, size) - count(1, coarse) : 0.0;
+    if (!(size < coarse)) return {0, size};
+    const double density = count(1, size);
+    return {density < infinity ? density - count(1, coarse) : infinity, size};
   };
+  double slope = local.gradation() < Command_line_sizing::Local::no_gradation ? local.gradation() : 0;
+  for (const Distance_sizing_field& field : sizing.near_surfaces()) slope = std::max(slope, (field.far() - field.near()) / field.reach());
   const auto more_in = [&](const Sizing_box& box, std::size_t place, std::size_t samples) {
-    return integral(domain, volumes, box, samples, [&](const auto& p, const Volume& v) { return more(p, v, place); });
+    return integral(domain, volumes, box, samples, slope, [&](const auto& p, const Volume& v) { return more(p, v, place); });
   };
   for (std::size_t k = 0; k < places.size(); ++k) sum += more_in(places[k], k, in_place);
   if (is_gradual) sum += more_in({domain.lower, domain.upper, 0}, places.size(), in_all);

@@ -18,7 +18,7 @@ struct Progress {
 
 /// Where the Steiner point of a poor tetrahedron goes; the policies are in refinement/point_placement.h.
 enum class Point_placement {
-  lazy,          ///< the circumcenter, unless a dihedral angle comes out below `Parameters::min_dihedral`: then a few points near it
+  lazy,          ///< the circumcenter, unless a dihedral angle comes out below `Parameters::min_dihedral` (or less, `angle_of_choice`): then a few points near it
   circumcenter,  ///< as far from all vertices as can be
   type1,         ///< as near to the shortest edge as the type-I selection ball allows
   type2          ///< the same in the type-II selection ball

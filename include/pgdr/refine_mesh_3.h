@@ -103,7 +103,7 @@ class Mesher_3 {
  private:
   /// Numbering needs a third more than what is refined (docs/performance.md): 160 bytes a tetrahedron instead of 135, and 20 where it
   /// was left poor.
-  static std::size_t memory_to_refine(const Parameters& parameters) { return parameters.max_memory / 4 * 3; }
+  static std::size_t memory_to_refine(const Parameters& parameters) { return parameters.max_memory > 0 ? std::max<std::size_t>(1, parameters.max_memory / 4 * 3) : 0; }
 
   void refine(const Criteria& criteria) {
     Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_, placement_);
@@ -231,7 +231,7 @@ class Mesher_3 {
         s.stop_message = "stopped at the limit of " + memory_size(parameters_.max_memory) + " of memory" + lost;
         break;
       case Stop_reason::time_limit:
-        s.stop_message = "stopped at the limit of " + significant(parameters_.time_limit, 3) + " s" + lost;
+        s.stop_message = "stopped at the time limit" + lost;
         break;
       case Stop_reason::min_edge_length:
         s.stop_message = "stopped at the minimum edge length of " + significant(unit_of(mesh_.domain()) * min_edge_length_, 3) + lost;
@@ -292,7 +292,7 @@ template <class K, class Sizing>
   requires SizingField<Sizing, K>
 Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters = {}) {
   return refine_mesh_3(std::move(domain), sizing, parameters,
-                       Standard_placement{parameters.placement, {cosine_of_degrees(parameters.min_dihedral)}});
+                       Standard_placement{parameters.placement, {cosine_of_degrees(angle_of_choice(parameters.min_dihedral))}});
 }
 
 /// The same from a PLC as the user wrote it. Throws `Input_error` with every problem that is found in it; where these are only

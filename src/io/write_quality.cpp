@@ -21,10 +21,11 @@ using io_detail::put_number;
 
 constexpr char names[] =
     "tetrahedron,region,volume,circumradius,radius_edge_ratio,min_dihedral_angle,max_dihedral_angle,"
-    "edge_ratio,aspect_ratio,mean_ratio,scaled_jacobian,exempt,unrefined\n";
+    "edge_ratio,aspect_ratio,mean_ratio,scaled_jacobian";
+constexpr char names_of_marks[] = ",exempt,unrefined";
 constexpr std::size_t columns = 13;
 
-char* format_tetrahedron(const Indexed_mesh_3& mesh, std::size_t i, char* out) {
+char* format_tetrahedron(const Indexed_mesh_3& mesh, std::size_t i, bool with_marks, char* out) {
   const auto& t = mesh.tetrahedra[i];
   const auto &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
   const double determinant = orientation_determinant(a, b, c, d);
@@ -37,18 +38,21 @@ char* format_tetrahedron(const Indexed_mesh_3& mesh, std::size_t i, char* out) {
   for (const double value : {radius_edge_ratio(a, b, c, d), *std::ranges::min_element(angles), *std::ranges::max_element(angles), m.edge_ratio,
                              m.aspect_ratio, m.mean_ratio, m.scaled_jacobian})
     out = put_number(put_char(out, ','), static_cast<float>(value));
-  for (const auto* marked : {&mesh.exempt, &mesh.unrefined})
-    out = put_char(put_char(out, ','), std::ranges::binary_search(*marked, i) ? '1' : '0');
+  if (with_marks)
+    for (const auto* marked : {&mesh.exempt, &mesh.unrefined})
+      out = put_char(put_char(out, ','), std::ranges::binary_search(*marked, i) ? '1' : '0');
   return put_char(out, '\n');
 }
 
 }  // namespace
 
-void write_quality(const Indexed_mesh_3& mesh, const std::filesystem::path& path) {
+void write_quality(const Indexed_mesh_3& mesh, const std::filesystem::path& path, bool with_marks) {
   Atomic_file out(path);
   out.write(names);
-  io_detail::write_rows(out, mesh.tetrahedra.size(), columns, [&mesh](std::size_t first, std::size_t last, char* text) {
-    for (std::size_t i = first; i < last; ++i) text = format_tetrahedron(mesh, i, text);
+  if (with_marks) out.write(names_of_marks);
+  out.write("\n");
+  io_detail::write_rows(out, mesh.tetrahedra.size(), columns, [&mesh, with_marks](std::size_t first, std::size_t last, char* text) {
+    for (std::size_t i = first; i < last; ++i) text = format_tetrahedron(mesh, i, with_marks, text);
     return text;
   });
   out.commit();

@@ -79,9 +79,11 @@ double Distance_sizing_field::size_within(const std::array<double, 3>& p, double
   if (far_ < limit && limit < infinity) return far_;
   // A hair more, so that what is at the border comes out above the limit.
   const double most = limit < infinity ? (limit - near_) / (far_ - near_) * reach_ * (1 + 1e-9) : reach_;
-  return near_ + (far_ - near_) * std::min(distance(p, most) / reach_, 1.0);
+  const double d = distance(p, most);
+  if (d >= most && limit < infinity) return far_;
+  return near_ + (far_ - near_) * std::min(d / reach_, 1.0);
 }
 
-double Distance_sizing_field::area() const { return tree_->unit * tree_->unit * tree_->scaled_area; }
+double Distance_sizing_field::area(double unit) const { return tree_->unit / unit * (tree_->unit / unit) * tree_->scaled_area; }
 
 }  // namespace pgdr

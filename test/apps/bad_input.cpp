@@ -182,12 +182,15 @@ TEST_CASE("sizes that ask for more than the memory holds are refused before the 
   const Sandbox sandbox;
   const std::string mesh = "mesh " + shape("cube.poly") + " -o out.mesh ";
   for (const char* size : {"--size 1e-300", "--size 1e-6", "--size 0.1 --refine-box 0.2,0.2,0.2,0.4,0.4,0.4:1e-6", "--region 0.5,0.5,0.5:3:1e-6", "--size-ball 0.5,0.5,0.5,0.1:1e-6", "--size-near-surface 1e-6:1e-5:1",
-                           "--size-ball 0,0,0,0:1e-7 --gradation 1e-6"})
+                           "--size-ball 0,0,0,0:1e-7 --gradation 1e-6", "--size 1e-104 --refine-box 0,0,0,1,1,1:1e-110"})
     check_fails(sandbox, mesh + size, 4, {"vertices", "memory", "--max-vertices"});
   check_fails(sandbox, mesh + "--size 0.01 --max-memory 100M", 4, {"1e+06 vertices", "100 MiB"});
   // Not what lies outside, and not where it is told to stop.
   CHECK(sandbox.run(mesh + "--refine-box 5,5,5,6,6,6:1e-6").exit_code == 0);
   CHECK(sandbox.run(mesh + "--size 1e-6 --max-vertices 500").exit_code == 4);
+  // Nor where a place is so small that no more than a few vertices are near it, wherever samples are taken.
+  for (const char* place : {"0.46875,0.46875,0.46875,0:5e-5", "0.5,0.47,0.46,0:5e-5", "0,0,0,0:5e-5", "0.3,0.3,0.3,1e-6:5e-5"})
+    CHECK(sandbox.run(mesh + "--size-ball " + place + " --gradation 0.2").exit_code == 0);
   CHECK(std::filesystem::exists(sandbox / "out.mesh"));
 }
 

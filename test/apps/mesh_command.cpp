@@ -189,6 +189,7 @@ TEST_CASE("limits stop the run with exit code 4, say why, and count what is left
   const std::string mesh = "mesh " + shape("cube.poly") + " -o out.mesh --stats - ";
   for (const auto& [limit, reason] : {std::pair{"--size 0.002 --time-limit 0.3 --max-vertices 1000000000", "time_limit"},
                                       {"--size 0.002 --max-memory 300M --max-vertices 1000000000", "memory_limit"},
+                                      {"--size 0.02 --max-memory 3 --max-vertices 1000000000", "memory_limit"},
                                       {"--size 0.02 --min-edge-length 0.3", "min_edge_length"},
                                       {"--size 0.02 --max-vertices 500", "vertex_budget"}}) {
     const Run run = sandbox.run(mesh + limit);

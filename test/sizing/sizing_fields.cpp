@@ -138,6 +138,7 @@ TEST_CASE("with a limit it is known whether a size is below, wherever the surfac
         triangles.push_back({a, b, c});
       }
       const pgdr::Distance_sizing_field near(triangles, 0.01 * scale, 0.2 * scale, 0.4 * scale);
+      CHECK((1 < near.area(scale) && near.area(scale) < 40));
       const pgdr::Command_line_sizing field(pgdr::Command_line_sizing::Local(pgdr::Uniform_sizing_field(0.15 * scale)), {near});
       int below = 0;
       for (int i = 0; i < 3000; ++i) {
@@ -148,6 +149,8 @@ TEST_CASE("with a limit it is known whether a size is below, wherever the surfac
           const double found = field.size_if_below(q, [limit] { return limit; });
           REQUIRE((found < limit) == (size < limit));
           if (found < limit) REQUIRE(found >= size);
+          // Else so far above that the refinement need not ask again.
+          if (size > limit * (1 + 5e-7)) REQUIRE(found > limit * (1 + 1e-7));
         }
         below += size < 0.1 * scale;
       }

@@ -65,6 +65,18 @@ TEST_CASE("Optimized meshes are the same for every number of threads", "[slivers
   }
 }
 
+TEST_CASE("Optimization ends where nothing moves any more", "[slivers]") {
+  const pgdr::Plc plc = pgdr::read_plc(data_file("cube.poly"));
+  for (const double size : {0.15, 0.07}) {  // without and with territories
+    const Mesh mesh = optimized(plc, size, 2000);
+    const std::size_t rounds = mesh.statistics().optimization.rounds;
+    CHECK(rounds < 2000);
+    const Mesh more = optimized(plc, size, rounds + 7);
+    CHECK(more.statistics().optimization.moved == mesh.statistics().optimization.moved);
+    CHECK(equal(pgdr::indexed_mesh_3(more), pgdr::indexed_mesh_3(mesh)));
+  }
+}
+
 TEST_CASE("Without a wanted angle no star gets a smaller one than it has", "[slivers]") {
   const pgdr::Plc plc = pgdr::read_plc(data_file("cube.poly"));
   const pgdr::Mesh_quality before = pgdr::mesh_quality(pgdr::indexed_mesh_3(optimized(plc, 0.06, 0, 0, 0)));

@@ -10,10 +10,10 @@ namespace pgdr {
 
 /// Writes the quality of every tetrahedron as comma-separated values, a line each behind a line of names: its number in the mesh, counted
 /// from 0, its region, volume, circumradius, radius-edge ratio, smallest and largest dihedral angle in degrees, the four
-/// `Shape_measures`, and 1 or 0 for exempt and for unrefined (a mesh that was read from a file does not know which are). Lengths are in the units of
-/// the input; what has no unit is rounded to single precision.
+/// `Shape_measures`, and, `with_marks`, 1 or 0 for exempt and for unrefined (a mesh that was read from a file does not know which are). Lengths
+/// are in the units of the input; what has no unit is rounded to single precision.
 /// Throws `Output_error` when the file cannot be written.
-void write_quality(const Indexed_mesh_3& mesh, const std::filesystem::path& path);
+void write_quality(const Indexed_mesh_3& mesh, const std::filesystem::path& path, bool with_marks = true);
 
 }  // namespace pgdr
 

@@ -2,6 +2,7 @@
 #ifndef PGDR_REFINEMENT_POINT_PLACEMENT_H
 #define PGDR_REFINEMENT_POINT_PLACEMENT_H
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -98,13 +99,23 @@ struct Type_2_placement {
   }
 };
 
+/// The dihedral angle, in degrees, below which another point is looked for where `wanted` is to be the smallest one in the end.
+///
+/// Points off the circumcenter take more vertices, the more the larger this angle; removing what they leave takes time, and vertices
+/// where no move helps. So that both stay below half a per cent of the vertices (table in docs/robustness.md): up to 12.5 degrees the angle itself,
+/// above 14 less, down to 7.4 at 20.
+constexpr double angle_of_choice(double wanted) {
+  constexpr double most = 12.5, kink = 14, less_per_degree = 0.85;
+  return std::max(0.0, std::min(wanted, most - less_per_degree * std::max(0.0, wanted - kink)));
+}
+
 /// The circumcenter, unless a dihedral angle comes out too small: then the corners of a cube and of an octahedron around it are tried.
 ///
 /// For tetrahedra that are poor by size alone. What is over the ratio leaves tetrahedra that hardly ever stay, and of other points than
 /// the center come shorter edges: with a choice in the type-I ball, models by quality alone took up to seven times as many
 /// tetrahedra, with one in a tenth of the circumradius as many, in up to twice the time, and as many slivers as without in the end.
 struct Lazy_placement {
-  double cosine = 1;  ///< of the smallest dihedral angle that is wanted
+  double cosine = 1;  ///< of the `angle_of_choice`
 
   Vec_3 operator()(const Poor_tetrahedron& t) const { return t.ball.center; }
   double enough(const Poor_tetrahedron& t) const { return t.is_over_ratio ? 1 : cosine; }

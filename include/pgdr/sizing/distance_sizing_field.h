@@ -42,8 +42,8 @@ class Distance_sizing_field {
   double near() const { return near_; }
   double far() const { return far_; }
   double reach() const { return reach_; }
-  /// Of all triangles together.
-  double area() const;
+  /// Of all triangles together, in squares of this unit of length.
+  double area(double unit = 1) const;
 
  private:
   template <class Point_3>

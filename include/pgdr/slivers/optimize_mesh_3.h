@@ -21,7 +21,7 @@
 namespace pgdr {
 
 /// Makes tetrahedra better on average, by moves of the vertices inside of volumes, with all threads of the caller's arena: in rounds, each of
-/// which divides the vertices among territories and tries to move each one once. The mesh is the same for every number of threads.
+/// which divides the vertices among territories and tries to move each one once that is not at a border. The mesh is the same for every number of threads.
 template <class Tr, class Criteria>
 class Mesh_optimizer_3 {
  public:
@@ -35,19 +35,23 @@ class Mesh_optimizer_3 {
   /// `notify`: told before every round how many vertices are to be looked at.
   Optimization_statistics run(std::size_t rounds, const std::function<void(std::size_t)>& notify = {}) {
     Optimization_statistics statistics;
+    std::size_t still = 0;  // rounds in a row that moved nothing
     for (; statistics.rounds < rounds && !is_cancelled(); ++statistics.rounds) {
       const std::vector<Vertex_handle> vertices = inner_vertices();
       if (notify) notify(vertices.size());
       const std::size_t n = territory_count(vertices.size(), 0);
       const std::size_t moved = n == 0 ? alone(vertices) : divided(vertices, n, statistics.rounds);
       statistics.moved += moved;
-      if (moved == 0 && n == 0) break;
+      still = moved == 0 ? still + 1 : 0;
+      if (still == (n == 0 ? 1 : shares.size())) break;  // the borders come again
     }
     return statistics;
   }
 
  private:
   using Mover = Vertex_mover_3<Tr, Criteria>;
+
+  static constexpr std::array<double, 3> shares{0.5, 0.4, 0.6};  ///< where borders are, by turns
 
   bool is_cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
 
@@ -81,7 +85,6 @@ class Mesh_optimizer_3 {
 
   /// With other borders in every round.
   std::size_t divided(const std::vector<Vertex_handle>& vertices, std::size_t n, std::size_t round) {
-    constexpr std::array<double, 3> shares{0.5, 0.4, 0.6};
     constexpr std::size_t most_samples = 100'000;
     mark_territories(tr_, Territory_map(sample_vertices(tr_, most_samples), n, shares[round % shares.size()]));
     std::vector<std::vector<Vertex_handle>> parts(n);
