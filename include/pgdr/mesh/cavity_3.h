@@ -46,9 +46,14 @@ class Cavity_3 {
     return find(p, seed, [](Cell_handle) { return true; });
   }
 
-  /// The same, but gives up, with nothing marked, at the first cell of the cavity that is not `acceptable`.
+  /// The same, but gives up, with nothing marked, at the first cell of the cavity that is not `acceptable`, or the first boundary triangle
+  /// of which `acceptable_face(cell, i)` says so, as seen from inside.
   template <class Acceptable>
   bool find(const Point& p, Cell_handle seed, const Acceptable& acceptable) {
+    return find(p, seed, acceptable, [](Cell_handle, int) { return true; });
+  }
+  template <class Acceptable, class Acceptable_face>
+  bool find(const Point& p, Cell_handle seed, const Acceptable& acceptable, const Acceptable_face& acceptable_face) {
     cells_.clear();
     boundary_.clear();
     is_foreign_ = false;
@@ -78,6 +83,10 @@ class Cavity_3 {
           n->tds_data().mark_on_boundary();
         }
         boundary_.push_back(Facet(c, i));
+        if (!acceptable_face(c, i)) {
+          abandon();
+          return false;
+        }
       }
     }
     return true;

@@ -70,15 +70,16 @@ class Sliver_inserter_3 {
     constexpr double refused = Tetrahedron_judge<Criteria>::refused;
     const std::int32_t subdomain = c->subdomain();
     const Point p(at.x, at.y, at.z);
-    if (!cavity_.find(p, c, [subdomain](Cell_handle d) { return d->subdomain() == subdomain; })) return refused;
     double worst = -1;
-    for (std::size_t k = 0; k < cavity_.boundary().size() && worst < limit; ++k) {
-      const auto& [d, i] = cavity_.boundary()[k];
+    // Mostly the sliver's own faces are in the way: then the rest of the cavity is not looked for.
+    const auto face = [&](Cell_handle d, int i) {
       Tetrahedron_points corners = tetrahedron_points(d);
       corners[static_cast<std::size_t>(i)] = at;
       worst = std::max(worst, judge_(corners, subdomain, limit));
-    }
-    if (worst < limit && is_spaced(at)) {
+      return worst < limit;
+    };
+    if (!cavity_.find(p, c, [subdomain](Cell_handle d) { return d->subdomain() == subdomain; }, face)) return refused;
+    if (is_spaced(at)) {
       features_.gather(complex_, cavity_);
       if (features_.deletes_any()) worst = refused;
     } else {
