@@ -106,7 +106,7 @@ TEST_CASE("Limits of time and of memory stop with a valid mesh", "[refinement]")
     if (!by_time) parameters.max_memory = pgdr::resident_memory_bytes() / 3 * 4 + (std::size_t{200} << 20);
     const auto refined_mesh = refined(box(), 0.002, parameters);
     CHECK(refined_mesh.statistics().stop == (by_time ? Stop_reason::time_limit : Stop_reason::memory_limit));
-    CHECK(refined_mesh.statistics().stop_message.starts_with("stopped at the limit of "));
+    CHECK(refined_mesh.statistics().stop_message.starts_with(by_time ? "stopped at the time limit" : "stopped at the limit of "));
     const auto mesh = pgdr::indexed_mesh_3(refined_mesh);
     CHECK_FALSE(mesh.unrefined.empty());
     CHECK(mesh.exempt.empty());
