@@ -9,6 +9,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <pgdr/domain/detail/aabb_triangle_tree.h>
+#include <pgdr/domain/reproducible_functions.h>
 
 namespace pgdr {
 
@@ -23,7 +24,7 @@ double unit_for(const std::vector<Distance_sizing_field::Triangle>& triangles) {
   for (const auto& t : triangles)
     for (const auto& p : t)
       for (const double x : p) largest = std::max(largest, std::abs(x));
-  return largest > 0 && largest < infinity ? std::ldexp(1.0, std::ilogb(largest)) : 1;
+  return largest > 0 && largest < infinity ? floor_power_of_two(largest) : 1;
 }
 
 /// So thin that the distance from it is that from its neighbors, and that doubles have no say.
