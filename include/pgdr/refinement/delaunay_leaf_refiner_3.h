@@ -614,24 +614,32 @@ class Delaunay_leaf_refiner_3 {
       cavity.is_foreign() ? hand_on(t, list) : give_up(w, t, list, result);
       return Trial::done;
     };
-    // What lies behind a facet need not be searched at all.
-    const Separation between = first_subfacet_towards(tr_, cavity.territory(), c, t.point());
-    if (between.is_foreign) {
-      hand_on(t, list);
-      return Trial::done;
-    }
-    if (between.subfacet != Complex::none) {
-      w.obstacles_.set_subfacet(complex_, between.subfacet);
-      return make_room(w, t, list, result) ? Trial::done : Trial::no_room;
-    }
+    // What lies behind a facet need not be searched at all. The way to the point is within its cavity, so that where nothing of a
+    // feature is there it need not be walked.
+    std::optional<Separation> between;
+    const auto is_behind = [&] {
+      if (!between) between = first_subfacet_towards(tr_, cavity.territory(), c, t.point());
+      return between->is_foreign || between->subfacet != Complex::none;
+    };
     // Cavities can be large, and what is in the way is close, mostly, so that most of the search can be spared.
     std::size_t looks = 0;
     std::uint32_t in_the_way = Complex::none;
     const auto is_clear = [&](Cell_handle d) {
-      in_the_way = subsegment_in_the_way(d, t.point(), ++looks <= most_looks);
+      ++looks;
+      if (!d->has_subfacet() && d->subsegment_edges() == 0) return true;
+      if (is_behind()) return false;
+      in_the_way = subsegment_in_the_way(d, t.point(), looks <= most_looks);
       return in_the_way == Complex::none;
     };
     bool is_found = cavity.find(t.point(), c, is_clear);
+    if (!is_found && is_behind()) {
+      if (between->is_foreign) {
+        hand_on(t, list);
+        return Trial::done;
+      }
+      w.obstacles_.set_subfacet(complex_, between->subfacet);
+      return make_room(w, t, list, result) ? Trial::done : Trial::no_room;
+    }
     if (!is_found && in_the_way != Complex::none) {
       w.obstacles_.set_subsegment(complex_, in_the_way);
       if (make_room(w, t, list, result)) return Trial::done;
