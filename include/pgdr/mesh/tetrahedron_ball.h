@@ -54,51 +54,64 @@ inline double squared_shortest_edge(const Tetrahedron_points& p) {
 /// |u||v||w| / det <= 1e6.
 constexpr double ball_error = 4e-8;
 
-/// Circumball, shortest edge and volume of the tetrahedron (a, b, c, d), all to about eight digits.
+/// A tetrahedron (a, b, c, d) as what both its ball and its dihedral angles are computed from, once for those who ask for both.
 ///
 /// Inlined by force: handing the points over in memory costs more than half of the arithmetic.
-[[gnu::always_inline]] inline Tetrahedron_ball tetrahedron_ball(const Vec_3& a, const Vec_3& b, const Vec_3& c,
-                                                                const Vec_3& d) {
-  const Vec_3 u = b - a, v = c - a, w = d - a;
-  const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
-  const Vec_3 vw = cross(v, w);
-  const double det = dot(u, vw);
-  // The determinant's rounding error is a few units of 1e-16 |u||v||w|.
-  if (det * det < 1e-12 * uu * vv * ww) [[unlikely]]
-    return exact_tetrahedron_ball({a, b, c, d});
-  const Vec_3 offset = (0.5 / det) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
-  Tetrahedron_ball ball;
-  ball.center = a + offset;
-  ball.squared_radius = squared_length(offset);
-  ball.squared_shortest =
-      std::min({uu, vv, ww, squared_distance(b, c), squared_distance(b, d), squared_distance(c, d)});
-  ball.volume = det / 6;
-  return ball;
-}
+class Tetrahedron_frame {
+ public:
+  [[gnu::always_inline]] Tetrahedron_frame(const Vec_3& a, const Vec_3& b, const Vec_3& c, const Vec_3& d)
+      : a_(a), b_(b), c_(c), d_(d), u_(b - a), v_(c - a), w_(d - a), vw_(cross(v_, w_)), wu_(cross(w_, u_)), uv_(cross(u_, v_)) {}
+  [[gnu::always_inline]] explicit Tetrahedron_frame(const Tetrahedron_points& p) : Tetrahedron_frame(p[0], p[1], p[2], p[3]) {}
 
-inline Tetrahedron_ball tetrahedron_ball(const Tetrahedron_points& p) {
-  return tetrahedron_ball(p[0], p[1], p[2], p[3]);
-}
-
-/// Cosine of the smallest of the six dihedral angles; 1 for a flat tetrahedron.
-inline double largest_dihedral_cosine(const Tetrahedron_points& p) {
-  const Vec_3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-  // Outward normals of the four facets of a positive tetrahedron, each opposite to one corner.
-  const std::array<Vec_3, 4> n{cross(b - a, c - a), cross(c, b), cross(a, c), cross(b, a)};
-  std::array<double, 4> inverse;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double squared = squared_length(n[i]);
-    if (!(squared > 0)) return 1;
-    inverse[i] = 1 / squared;
+  /// Circumball, shortest edge and volume, all to about eight digits.
+  [[gnu::always_inline]] Tetrahedron_ball ball() const {
+    const double uu = squared_length(u_), vv = squared_length(v_), ww = squared_length(w_);
+    const double det = dot(u_, vw_);
+    // The determinant's rounding error is a few units of 1e-16 |u||v||w|.
+    if (det * det < 1e-12 * uu * vv * ww) [[unlikely]]
+      return exact_tetrahedron_ball({a_, b_, c_, d_});
+    const Vec_3 offset = (0.5 / det) * (uu * vw_ + vv * wu_ + ww * uv_);
+    Tetrahedron_ball ball;
+    ball.center = a_ + offset;
+    ball.squared_radius = squared_length(offset);
+    ball.squared_shortest =
+        std::min({uu, vv, ww, squared_distance(b_, c_), squared_distance(b_, d_), squared_distance(c_, d_)});
+    ball.volume = det / 6;
+    return ball;
   }
-  double worst = -1;  // squared, with its sign: one root is enough
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) {
-      const double d = -dot(n[i], n[j]);
-      worst = std::max(worst, d * std::abs(d) * inverse[i] * inverse[j]);
+
+  /// Cosine of the smallest of the six dihedral angles; 1 for a flat tetrahedron.
+  [[gnu::always_inline]] double largest_dihedral_cosine() const {
+    // Inward normals of the four facets of a positive tetrahedron, each opposite to one corner.
+    const std::array<Vec_3, 4> n{cross(w_ - u_, v_ - u_), vw_, wu_, uv_};
+    std::array<double, 4> inverse;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double squared = squared_length(n[i]);
+      if (!(squared > 0)) return 1;
+      inverse[i] = 1 / squared;
     }
-  return worst > 0 ? std::sqrt(worst) : -std::sqrt(-worst);
+    double worst = -1;  // squared, with its sign: one root is enough
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const double d = -dot(n[i], n[j]);
+        worst = std::max(worst, d * std::abs(d) * inverse[i] * inverse[j]);
+      }
+    return worst > 0 ? std::sqrt(worst) : -std::sqrt(-worst);
+  }
+
+ private:
+  Vec_3 a_, b_, c_, d_;
+  Vec_3 u_, v_, w_;
+  Vec_3 vw_, wu_, uv_;
+};
+
+[[gnu::always_inline]] inline Tetrahedron_ball tetrahedron_ball(const Vec_3& a, const Vec_3& b, const Vec_3& c, const Vec_3& d) {
+  return Tetrahedron_frame(a, b, c, d).ball();
 }
+
+inline Tetrahedron_ball tetrahedron_ball(const Tetrahedron_points& p) { return Tetrahedron_frame(p).ball(); }
+
+inline double largest_dihedral_cosine(const Tetrahedron_points& p) { return Tetrahedron_frame(p).largest_dihedral_cosine(); }
 
 }  // namespace pgdr
 

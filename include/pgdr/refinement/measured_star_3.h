@@ -41,9 +41,10 @@ class Measured_star_3 {
       Tetrahedron_points corners;
       for (int j = 0; j < 4; ++j) corners[static_cast<std::size_t>(j)] = j == i ? p : position(c->vertex(j));
       Tetrahedron& t = tetrahedra_.back();
-      t.ball = tetrahedron_ball(corners);
+      const Tetrahedron_frame frame(corners);
+      t.ball = frame.ball();
       t.is_poor = criteria.is_poor(t.ball, c->subdomain());
-      if (t.is_poor || largest_dihedral_cosine(corners) <= limit) continue;
+      if (t.is_poor || frame.largest_dihedral_cosine() <= limit) continue;
       bad_.push_back({corners, static_cast<std::size_t>(i), c->subdomain()});
       tetrahedra_.clear();
       return false;
@@ -57,7 +58,8 @@ class Measured_star_3 {
   bool is_as_bad(const Vec_3& q, const Criteria& criteria, double limit) const {
     for (Bad bad : bad_) {
       bad.corners[bad.apex] = q;
-      if (largest_dihedral_cosine(bad.corners) > limit && !criteria.is_poor(tetrahedron_ball(bad.corners), bad.subdomain)) return true;
+      const Tetrahedron_frame frame(bad.corners);
+      if (frame.largest_dihedral_cosine() > limit && !criteria.is_poor(frame.ball(), bad.subdomain)) return true;
     }
     return false;
   }

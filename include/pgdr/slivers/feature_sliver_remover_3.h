@@ -121,12 +121,13 @@ class Feature_sliver_remover_3 {
       if (c->subdomain() == 0) continue;
       Tetrahedron_points corners = tetrahedron_points(c);
       corners[static_cast<std::size_t>(i)] = at;
-      const double cosine = largest_dihedral_cosine(corners);
+      const Tetrahedron_frame frame(corners);
+      const double cosine = frame.largest_dihedral_cosine();
       bool is_on_boundary = true;
       for (int j = 0; j < 4; ++j) is_on_boundary &= j == i || c->vertex(j)->in_dimension() < 3;
       if (is_on_boundary) value.relaxed = std::max(value.relaxed, cosine);
       value.strict = std::max(value.strict, cosine);
-      if (const Tetrahedron_ball ball = tetrahedron_ball(corners); judge_.refuses(ball, c->subdomain())) {
+      if (const Tetrahedron_ball ball = frame.ball(); judge_.refuses(ball, c->subdomain())) {
         value.strict = refused;
         if (++poor > most_poor || ball.squared_radius > most_ratio * most_ratio * ball.squared_shortest) value.relaxed = refused;
       }

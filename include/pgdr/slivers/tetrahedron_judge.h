@@ -19,10 +19,10 @@ class Tetrahedron_judge {
 
   /// The largest cosine of a dihedral angle; `refused` if it is not below the limit, or if the tetrahedron is poor or has too short an edge.
   double operator()(const Tetrahedron_points& corners, std::int32_t subdomain, double limit) const {
-    const double cosine = largest_dihedral_cosine(corners);
+    const Tetrahedron_frame frame(corners);
+    const double cosine = frame.largest_dihedral_cosine();
     if (cosine >= limit) return refused;
-    const Tetrahedron_ball ball = tetrahedron_ball(corners);
-    return refuses(ball, subdomain) ? refused : cosine;
+    return refuses(frame.ball(), subdomain) ? refused : cosine;
   }
 
   /// Whether it is poor or has too short an edge.

@@ -66,6 +66,7 @@ class Vertex_mover_3 {
     const Vec_3 from = position(v), way = middle_of_circumcenters() - from;
     if (!(length(way) > least_way * shortest_) || !hole_.fill()) return Outcome::stays;
     refused_at_ = 0;
+    is_averaging_ = true;
     measured_filling_.assign(hole_.filling().size(), unmeasured);
     for (const double part : parts) {
       place_ = from + part * way;
@@ -133,6 +134,7 @@ class Vertex_mover_3 {
   /// Looks for a place: the first that is good enough, else the best that is better than what there is.
   bool search(const Vec_3& from, double now, double wanted) {
     refused_at_ = 0;
+    is_averaging_ = false;
     measured_filling_.assign(hole_.filling().size(), unmeasured);
     is_cured_ = try_all(from, wanted - rounding, true);
     if (is_cured_) return true;
@@ -187,13 +189,13 @@ class Vertex_mover_3 {
       if (!in_conflict_[k]) {
         worst = std::max(worst, measured_filling(k, limit));
         if (worst >= limit) return refused;
-        made_.add(hole_.points_of(filling[k]));
+        if (is_averaging_) made_.add(hole_.points_of(filling[k]));
       }
     const std::int32_t subdomain = hole_.star().front()->subdomain();
     const auto face = [&](Tetrahedron_points corners, std::size_t i) {
       corners[i] = at;
       worst = std::max(worst, judge_(corners, subdomain, limit));
-      made_.add(corners);
+      if (is_averaging_) made_.add(corners);
       return worst < limit;
     };
     for (std::size_t k = 0; k < filling.size(); ++k)
@@ -289,6 +291,7 @@ class Vertex_mover_3 {
   double shortest_ = 0;
   Vec_3 steepest_;
   std::size_t refused_at_ = 0;  ///< in the star, where the last place was: likely the next one, too
+  bool is_averaging_ = false;   ///< whether `made_` is asked for
   Average_shape made_;          ///< of what is new at the last place
   Vec_3 place_;
   double nearest_ = 0;
