@@ -12,6 +12,7 @@
 
 #include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/io/read_plc.h>
+#include <pgdr/quality/mesh_quality.h>
 #include <pgdr/refinement/divide_worklist_3.h>
 
 #include "catch.h"
@@ -81,4 +82,13 @@ TEST_CASE("Theorem 6: in whatever order tasks with territories move vertices, th
         CHECK(equal(other.mesh, first.mesh));
       }
     }
+}
+
+TEST_CASE("Moves leave no tetrahedron above the bounds of ratio and size", "[slivers]") {
+  constexpr double size = 0.05;
+  const Moved cube = moved(pgdr::read_plc(data_file("cube.poly")), size, 8, 0.5, 0);
+  CHECK(cube.moves > 100);
+  const pgdr::Mesh_quality quality = pgdr::mesh_quality(cube.mesh);
+  CHECK(quality.max_radius_edge_ratio <= 2);
+  CHECK(quality.max_circumradius <= size * (1 + 1e-6));
 }

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <unordered_map>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -31,6 +31,7 @@ class Sliver_removal_3 {
  public:
   using Complex = Constraint_complex_3<Tr>;
   using Cell_handle = typename Tr::Cell_handle;
+  using Vertex_handle = typename Tr::Vertex_handle;
   using Sliver = Sliver_3<Tr>;
   using Remover = Sliver_remover_3<Tr, Criteria>;
 
@@ -53,17 +54,17 @@ class Sliver_removal_3 {
         if (n == 0) break;
       }
       if (!remove_on_features(on_features)) break;
-      slivers = find_slivers();
-      std::erase_if(slivers, [this](const Sliver& s) { return is_given_up(s); });
+      slivers = find_new_slivers();
     }
     // What is left of them all was given up, or not looked at.
-    statistics_.left = slivers.empty() && given_up_.empty() ? 0 : find_slivers().size();
+    statistics_.left = slivers.empty() && !is_any_given_up_ ? 0 : find_slivers().size();
     return statistics_;
   }
 
  private:
   static constexpr std::size_t most_rounds = 3;  ///< with territories
   static constexpr int most_passes = 6;          ///< three are enough for most models
+  static constexpr std::uint16_t known_before = 1;  ///< territory of the vertices that there were; new ones, with nobody else at work, have 0
 
   /// Books the time until it is destroyed.
   class Side_by_side {
@@ -86,11 +87,7 @@ class Sliver_removal_3 {
     std::vector<Sliver> all;
     const auto look = [this](std::size_t, auto it, std::size_t count) {
       std::vector<Sliver> part;
-      for (; count > 0; --count, ++it) {
-        const Cell_handle c = it;
-        if (c->subdomain() == 0 || tr_.is_infinite(c)) continue;
-        if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) part.push_back(Sliver::of(c, cosine));
-      }
+      for (; count > 0; --count, ++it) add_if_sliver(it, part);
       return part;
     };
     for (const auto& part : parallel_walk(tr_.all_cells_begin(), tr_.all_cells_end(), default_grain, look))
@@ -98,13 +95,37 @@ class Sliver_removal_3 {
     return all;
   }
 
+  /// Those at vertices that were inserted since all were given to `known_before`. Others were given up, or have been looked at.
+  std::vector<Sliver> find_new_slivers() {
+    const auto is_new = [this](Vertex_handle v) { return v != tr_.infinite_vertex() && v->territory() != known_before; };
+    std::vector<Sliver> found;
+    std::vector<Cell_handle> around;
+    for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) {
+      if (!is_new(v)) continue;
+      around.clear();
+      tr_.tds().incident_cells(v, std::back_inserter(around));
+      for (const Cell_handle c : around) {
+        // With more than one, it is the first one's.
+        bool is_first = true;
+        for (int i = 0; c->vertex(i) != Vertex_handle(v); ++i) is_first &= !is_new(c->vertex(i));
+        if (is_first) add_if_sliver(c, found);
+      }
+    }
+    return found;
+  }
+
+  void add_if_sliver(Cell_handle c, std::vector<Sliver>& to) const {
+    if (c->subdomain() == 0 || tr_.is_infinite(c)) return;
+    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) to.push_back(Sliver::of(c, cosine));
+  }
+
   std::vector<Sliver> alone(std::vector<Sliver> slivers) {
-    give_everything_away();
+    give_all(0);
     return take(Remover(tr_, complex_, judge_, wanted_, {}, quota(), cancel_).run(std::move(slivers)));
   }
 
-  void give_everything_away() {
-    for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) v->set_territory(0);
+  void give_all(std::uint16_t territory) {
+    for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) v->set_territory(territory);
   }
 
   std::vector<Sliver> divided(std::vector<Sliver> slivers, std::size_t n, std::size_t round) {
@@ -150,18 +171,12 @@ class Sliver_removal_3 {
     std::erase_if(hopeless_, [](const Sliver& s) { return !s.is_live(); });
     if (hopeless_.empty()) return false;
     std::sort(hopeless_.begin(), hopeless_.end());
-    give_everything_away();
+    give_all(known_before);
     const std::size_t inserted = remover.remove(hopeless_);
-    for (const Sliver& s : hopeless_)
-      if (s.is_live()) given_up_[&*s.cell] = s.generation;
+    is_any_given_up_ |= std::ranges::any_of(hopeless_, &Sliver::is_live);
     hopeless_.clear();
     statistics_.added += inserted;
     return inserted > 0;
-  }
-
-  bool is_given_up(const Sliver& s) const {
-    const auto at = given_up_.find(&*s.cell);
-    return at != given_up_.end() && at->second == s.generation;
   }
 
   Tr& tr_;
@@ -173,7 +188,7 @@ class Sliver_removal_3 {
   const std::atomic<bool>* cancel_;
   Sliver_statistics statistics_;
   std::vector<Sliver> hopeless_;  ///< what is left inside
-  std::unordered_map<const void*, std::uint32_t> given_up_;  // asked, never walked through
+  bool is_any_given_up_ = false;
 };
 
 }  // namespace pgdr
