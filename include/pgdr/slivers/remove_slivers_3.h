@@ -38,7 +38,7 @@ class Sliver_removal_3 {
   /// `wanted`: the cosine of the angle. `engine` refines what is split. `most_vertices`: of the triangulation.
   Sliver_removal_3(Tr& tr, Complex& complex, const Criteria& criteria, double min_edge_length, double wanted, Engine& engine,
                    std::size_t most_vertices, const std::atomic<bool>* cancel)
-      : tr_(tr), complex_(complex), judge_(criteria, min_edge_length), wanted_(wanted), engine_(engine), most_vertices_(most_vertices),
+      : tr_(tr), complex_(complex), judge_(criteria, min_edge_length, &engine.acute()), wanted_(wanted), engine_(engine), most_vertices_(most_vertices),
         cancel_(cancel) {}
 
   /// `notify`: told before every round how many slivers are to be looked at.

@@ -40,7 +40,7 @@ class Sliver_inserter_3 {
     double best = now;
     Vec_3 place;
     const auto attempt = [&](const Vec_3& at) {
-      const double cosine = worst_at(c, at, best);
+      const double cosine = worst_at(c, at, best, wanted);
       if (cosine >= best) return false;
       best = cosine;
       place = at;
@@ -58,6 +58,7 @@ class Sliver_inserter_3 {
     const Vertex_handle v = cavity_.commit(p);
     v->set_feature(3, Tr::Vertex::none);
     v->set_insertion_radius(nearest);
+    for (const Cell_handle d : cavity_.star()) judge_.mark_exempt(d);
     return true;
   }
 
@@ -65,21 +66,49 @@ class Sliver_inserter_3 {
   const std::vector<Cell_handle>& star() const { return cavity_.star(); }
 
  private:
-  /// As `Vertex_mover_3::worst_at`; besides, no new edge may be shorter than half of the shortest one here.
-  double worst_at(Cell_handle c, const Vec_3& at, double limit) {
+  /// How many there are, and the largest radius-edge ratio among them, squared.
+  struct Exempt_tetrahedra {
+    std::size_t count = 0;
+    double squared_ratio = 0;
+
+    void add(const Tetrahedron_points& corners) {
+      const Tetrahedron_ball ball = tetrahedron_ball(corners);
+      squared_ratio = std::max(squared_ratio, ball.squared_radius / ball.squared_shortest);
+      ++count;
+    }
+    bool is_no_worse_than(const Exempt_tetrahedra& o) const { return count <= o.count && squared_ratio <= o.squared_ratio; }
+  };
+
+  /// As `Vertex_mover_3::worst_at`; besides, no new edge may be shorter than half of the shortest one here,
+  /// and where exempt tetrahedra go, only a cure will do.
+  double worst_at(Cell_handle c, const Vec_3& at, double limit, double wanted) {
     constexpr double refused = Tetrahedron_judge<Criteria>::refused;
     const std::int32_t subdomain = c->subdomain();
     const Point p(at.x, at.y, at.z);
     double worst = -1;
     // Mostly the sliver's own faces are in the way: then the rest of the cavity is not looked for.
+    Exempt_tetrahedra gone, made;
+    const auto cell = [&](Cell_handle d) {
+      if (d->state() == Cell_state::exempt) {
+        gone.add(tetrahedron_points(d));
+        limit = std::min(limit, wanted);
+      }
+      return d->subdomain() == subdomain;
+    };
     const auto face = [&](Cell_handle d, int i) {
       Tetrahedron_points corners = tetrahedron_points(d);
       corners[static_cast<std::size_t>(i)] = at;
-      worst = std::max(worst, judge_(corners, subdomain, limit));
+      if (gone.count == 0) {
+        worst = std::max(worst, judge_(corners, subdomain, limit));
+      } else {
+        bool is_exempt;
+        worst = std::max(worst, judge_.instead_of_exempt(corners, subdomain, limit, std::numeric_limits<double>::infinity(), is_exempt));
+        if (is_exempt) made.add(corners);
+      }
       return worst < limit;
     };
-    if (!cavity_.find(p, c, [subdomain](Cell_handle d) { return d->subdomain() == subdomain; }, face)) return refused;
-    if (is_spaced(at)) {
+    if (!cavity_.find(p, c, cell, face)) return refused;
+    if (is_spaced(at) && made.is_no_worse_than(gone)) {
       features_.gather(complex_, cavity_);
       if (features_.deletes_any()) worst = refused;
     } else {

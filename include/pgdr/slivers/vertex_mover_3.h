@@ -48,6 +48,7 @@ class Vertex_mover_3 {
     if (!hole_.find(v)) return hole_.is_foreign() ? Outcome::foreign : Outcome::stays;
     const double now = measure_star();
     if (now <= wanted || !hole_.fill()) return Outcome::stays;
+    count_exempt();
     if (!search(position(v), now, wanted)) return is_foreign_ ? Outcome::foreign : Outcome::stays;
     return move(v) ? Outcome::moved : Outcome::stays;
   }
@@ -63,11 +64,12 @@ class Vertex_mover_3 {
     if (!territory_.leads_on(v)) return Outcome::foreign;
     if (!hole_.find(v)) return hole_.is_foreign() ? Outcome::foreign : Outcome::stays;
     const double limit = std::max(measure_star(), wanted) + rounding;
+    exempt_in_star_ = 0;
     const Vec_3 from = position(v), way = middle_of_circumcenters() - from;
     if (!(length(way) > least_way * shortest_) || !hole_.fill()) return Outcome::stays;
     refused_at_ = 0;
     is_averaging_ = true;
-    measured_filling_.assign(hole_.filling().size(), unmeasured);
+    measured_filling_.assign(hole_.filling().size(), {});
     for (const double part : parts) {
       place_ = from + part * way;
       if (worst_at(place_, limit) < limit && is_better_at_place()) return move(v) ? Outcome::moved : Outcome::stays;
@@ -88,6 +90,10 @@ class Vertex_mover_3 {
  private:
   static constexpr double refused = Tetrahedron_judge<Criteria>::refused;
   static constexpr double unmeasured = -2;  ///< less than any cosine
+  struct Measured {
+    double cosine = unmeasured;
+    std::uint8_t exempt = 0;  ///< whether it would be
+  };
   /// The tetrahedra that are made have their corners in another order, which is rounded differently.
   static constexpr double rounding = 1e-12;
 
@@ -105,6 +111,33 @@ class Vertex_mover_3 {
     for (const Vec_3& p : hole_.points()) shortest_ = std::min(shortest_, squared_distance(at, p));
     shortest_ = std::sqrt(shortest_);
     return worst;
+  }
+
+  /// Exempt tetrahedra of the star may be replaced by as many, with ratios up to theirs.
+  void count_exempt() {
+    exempt_in_star_ = 0;
+    exempt_ratio2_ = 0;
+    for (const Cell_handle c : hole_.star()) {
+      if (c->state() == Cell_state::good) continue;
+      if (c->state() != Cell_state::exempt) {
+        exempt_in_star_ = 0;
+        return;
+      }
+      const Tetrahedron_ball ball = tetrahedron_ball(tetrahedron_points(c));
+      exempt_ratio2_ = std::max(exempt_ratio2_, ball.squared_radius / ball.squared_shortest);
+      ++exempt_in_star_;
+    }
+  }
+
+  /// Of a tetrahedron that would be made, as the judge.
+  double judged(const Tetrahedron_points& corners, double limit, std::uint8_t& exempt) const {
+    const std::int32_t subdomain = hole_.star().front()->subdomain();
+    exempt = 0;
+    if (exempt_in_star_ == 0) return judge_(corners, subdomain, limit);
+    bool is_exempt;
+    const double cosine = judge_.instead_of_exempt(corners, subdomain, limit, exempt_ratio2_, is_exempt);
+    exempt = is_exempt;
+    return cosine;
   }
 
   Vertex_handle vertex() const { return hole_.star().front()->vertex(hole_.apex(0)); }
@@ -135,10 +168,10 @@ class Vertex_mover_3 {
   bool search(const Vec_3& from, double now, double wanted) {
     refused_at_ = 0;
     is_averaging_ = false;
-    measured_filling_.assign(hole_.filling().size(), unmeasured);
+    measured_filling_.assign(hole_.filling().size(), {});
     is_cured_ = try_all(from, wanted - rounding, true);
     if (is_cured_) return true;
-    measured_filling_.assign(hole_.filling().size(), unmeasured);
+    measured_filling_.assign(hole_.filling().size(), {});
     return try_all(from, now, false);
   }
 
@@ -167,8 +200,9 @@ class Vertex_mover_3 {
 
   /// The cosine in the filling, `refused` if the refinement would not leave it or it reaches the limit, which may only become less.
   double measured_filling(std::size_t k, double limit) {
-    if (measured_filling_[k] == unmeasured) measured_filling_[k] = judge_(hole_.points_of(hole_.filling()[k]), vertex()->cell()->subdomain(), limit);
-    return measured_filling_[k];
+    Measured& m = measured_filling_[k];
+    if (m.cosine == unmeasured) m.cosine = judged(hole_.points_of(hole_.filling()[k]), limit, m.exempt);
+    return m.cosine;
   }
 
   /// The largest cosine of a dihedral angle of what is new with the vertex there; `refused` if that is not below the limit, or one of them
@@ -184,19 +218,22 @@ class Vertex_mover_3 {
       is_any |= in_conflict_[k];
     }
     if (!is_any) return refused;
+    int exempt = 0;
     made_ = {};
     for (std::size_t k = 0; k < filling.size(); ++k)
       if (!in_conflict_[k]) {
         worst = std::max(worst, measured_filling(k, limit));
-        if (worst >= limit) return refused;
+        exempt += measured_filling_[k].exempt;
+        if (worst >= limit || exempt > exempt_in_star_) return refused;
         if (is_averaging_) made_.add(hole_.points_of(filling[k]));
       }
-    const std::int32_t subdomain = hole_.star().front()->subdomain();
     const auto face = [&](Tetrahedron_points corners, std::size_t i) {
       corners[i] = at;
-      worst = std::max(worst, judge_(corners, subdomain, limit));
+      std::uint8_t is_exempt;
+      worst = std::max(worst, judged(corners, limit, is_exempt));
+      exempt += is_exempt;
       if (is_averaging_) made_.add(corners);
-      return worst < limit;
+      return worst < limit && exempt <= exempt_in_star_;
     };
     for (std::size_t k = 0; k < filling.size(); ++k)
       if (in_conflict_[k])
@@ -262,6 +299,8 @@ class Vertex_mover_3 {
     if (!is_kept) find(before);
     std::erase_if(filling_made_, [](Cell_handle c) { return Cavity_3<Tr>::contains(c); });
     cavity_.commit(is_kept ? at : before, v);
+    if (exempt_in_star_ > 0)
+      for_made([this](Cell_handle c) { judge_.mark_exempt(c); });
     if (is_kept) v->set_insertion_radius(nearest_);
     return is_kept;
   }
@@ -296,7 +335,9 @@ class Vertex_mover_3 {
   Vec_3 place_;
   double nearest_ = 0;
   bool is_foreign_ = false, is_cured_ = false;
-  std::vector<double> measured_filling_;
+  int exempt_in_star_ = 0;      ///< where others may take their places, else 0
+  double exempt_ratio2_ = 0;    ///< the largest of their radius-edge ratios, squared
+  std::vector<Measured> measured_filling_;
   std::vector<std::uint8_t> in_conflict_;
   std::vector<Cell_handle> outside_;
   std::vector<Cell_handle> filling_made_;
