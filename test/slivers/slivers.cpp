@@ -177,6 +177,14 @@ TEST_CASE("Real models lose their slivers", "[slivers]") {
   }
 }
 
+TEST_CASE("Next to small angles most slivers go, too", "[slivers]") {
+  const auto path = input_model("a20_bird_in_box_2regions.poly");
+  if (!path) PGDR_SKIP("the real models are not here");
+  const Mesh mesh = refined(pgdr::read_plc(*path), any_size);
+  CHECK(mesh.statistics().slivers.found > 1000);
+  CHECK(mesh.statistics().slivers.left < 25);  // 39 where no tetrahedron might take an exempt one's place
+}
+
 TEST_CASE("The limit of vertices holds while slivers are removed", "[slivers]") {
   const pgdr::Plc plc = pgdr::read_plc(data_file("cube.poly"));
   const std::size_t vertices = without_slivers(plc, 0.06, 0).triangulation().number_of_vertices();

@@ -63,12 +63,18 @@ class Tetrahedron_frame {
       : a_(a), b_(b), c_(c), d_(d), u_(b - a), v_(c - a), w_(d - a), vw_(cross(v_, w_)), wu_(cross(w_, u_)), uv_(cross(u_, v_)) {}
   [[gnu::always_inline]] explicit Tetrahedron_frame(const Tetrahedron_points& p) : Tetrahedron_frame(p[0], p[1], p[2], p[3]) {}
 
+  /// Whether it is so flat that its ball takes rational arithmetic, hundreds of times as long.
+  [[gnu::always_inline]] bool is_flat() const {
+    const double det = dot(u_, vw_);
+    // The determinant's rounding error is a few units of 1e-16 |u||v||w|.
+    return det * det < 1e-12 * squared_length(u_) * squared_length(v_) * squared_length(w_);
+  }
+
   /// Circumball, shortest edge and volume, all to about eight digits.
   [[gnu::always_inline]] Tetrahedron_ball ball() const {
     const double uu = squared_length(u_), vv = squared_length(v_), ww = squared_length(w_);
     const double det = dot(u_, vw_);
-    // The determinant's rounding error is a few units of 1e-16 |u||v||w|.
-    if (det * det < 1e-12 * uu * vv * ww) [[unlikely]]
+    if (is_flat()) [[unlikely]]
       return exact_tetrahedron_ball({a_, b_, c_, d_});
     const Vec_3 offset = (0.5 / det) * (uu * vw_ + vv * wu_ + ww * uv_);
     Tetrahedron_ball ball;

@@ -72,9 +72,11 @@ class Sliver_inserter_3 {
     double squared_ratio = 0;
 
     void add(const Tetrahedron_points& corners) {
-      const Tetrahedron_ball ball = tetrahedron_ball(corners);
-      squared_ratio = std::max(squared_ratio, ball.squared_radius / ball.squared_shortest);
       ++count;
+      const Tetrahedron_frame frame(corners);
+      if (frame.is_flat()) return;  // none that is made is
+      const Tetrahedron_ball ball = frame.ball();
+      squared_ratio = std::max(squared_ratio, ball.squared_radius / ball.squared_shortest);
     }
     bool is_no_worse_than(const Exempt_tetrahedra& o) const { return count <= o.count && squared_ratio <= o.squared_ratio; }
   };
@@ -88,6 +90,7 @@ class Sliver_inserter_3 {
     double worst = -1;
     // Mostly the sliver's own faces are in the way: then the rest of the cavity is not looked for.
     Exempt_tetrahedra gone, made;
+    exempt_.clear();
     const auto cell = [&](Cell_handle d) {
       if (d->state() == Cell_state::exempt) {
         gone.add(tetrahedron_points(d));
@@ -103,14 +106,18 @@ class Sliver_inserter_3 {
       } else {
         bool is_exempt;
         worst = std::max(worst, judge_.instead_of_exempt(corners, subdomain, limit, std::numeric_limits<double>::infinity(), is_exempt));
-        if (is_exempt) made.add(corners);
+        if (is_exempt) {
+          made.add(corners);
+          exempt_.push_back(corners);
+        }
       }
       return worst < limit;
     };
     if (!cavity_.find(p, c, cell, face)) return refused;
     if (is_spaced(at) && made.is_no_worse_than(gone)) {
       features_.gather(complex_, cavity_);
-      if (features_.deletes_any()) worst = refused;
+      const auto is_explained = [this](const Tetrahedron_points& t) { return judge_.is_explained(t); };
+      if (features_.deletes_any() || !std::ranges::all_of(exempt_, is_explained)) worst = refused;
     } else {
       worst = refused;
     }
@@ -128,6 +135,7 @@ class Sliver_inserter_3 {
   Tetrahedron_judge<Criteria> judge_;
   Cavity_3<Tr> cavity_;
   Cavity_features_3<Tr> features_;
+  std::vector<Tetrahedron_points> exempt_;  ///< that would be made at the last place
 };
 
 }  // namespace pgdr

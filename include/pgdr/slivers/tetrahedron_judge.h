@@ -30,18 +30,24 @@ class Tetrahedron_judge {
     return refuses(frame.ball(), subdomain) ? refused : cosine;
   }
 
-  /// The same, but in the place of others that are exempt, with ratios up to the root of `squared_ratio`, one that is over the ratio will do if
-  /// small angles explain it, too: then `is_exempt`.
+  /// The same, but in the place of others that are exempt, with ratios up to the root of `squared_ratio`, one that is over the ratio will do,
+  /// too, if small angles explain it: `is_exempt`, where that is yet to be asked.
   double instead_of_exempt(const Tetrahedron_points& corners, std::int32_t subdomain, double limit, double squared_ratio, bool& is_exempt) const {
     const Tetrahedron_frame frame(corners);
     const double cosine = frame.largest_dihedral_cosine();
     is_exempt = false;
-    if (cosine >= limit) return refused;
+    if (cosine >= limit || frame.is_flat()) return refused;
     const Tetrahedron_ball ball = frame.ball();
     if (!refuses(ball, subdomain)) return cosine;
-    is_exempt = ball.squared_shortest >= squared_min_edge_ && ball.squared_radius <= squared_ratio * ball.squared_shortest &&
-                !criteria_->is_over_size(ball, subdomain) && is_explained(corners, std::sqrt(ball.squared_radius));
+    is_exempt = acute_ && ball.squared_shortest >= squared_min_edge_ && ball.squared_radius <= squared_ratio * ball.squared_shortest &&
+                !criteria_->is_over_size(ball, subdomain);
     return is_exempt ? cosine : refused;
+  }
+  /// Whether a small angle is as near as to those that it explains (docs/theory.md, section 11). Takes as long as a hundred of the questions above.
+  bool is_explained(const Tetrahedron_points& corners) const {
+    constexpr double reach = 4;
+    const double distance = reach * std::sqrt(tetrahedron_ball(corners).squared_radius);
+    return std::ranges::any_of(corners, [&](const Vec_3& p) { return acute_->contains(p, distance); });
   }
 
   /// For a tetrahedron that was made, as `instead_of_exempt` let it be.
@@ -56,12 +62,6 @@ class Tetrahedron_judge {
   }
 
  private:
-  /// Whether a small angle is as near as to those that it explains (docs/theory.md, section 12).
-  bool is_explained(const Tetrahedron_points& corners, double circumradius) const {
-    constexpr double reach = 4;  // circumradii
-    return acute_ && std::ranges::any_of(corners, [&](const Vec_3& p) { return acute_->contains(p, reach * circumradius); });
-  }
-
   const Criteria* criteria_;
   double squared_min_edge_;
   const Acute_neighborhood_3* acute_;

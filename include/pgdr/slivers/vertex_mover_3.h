@@ -123,9 +123,11 @@ class Vertex_mover_3 {
         exempt_in_star_ = 0;
         return;
       }
-      const Tetrahedron_ball ball = tetrahedron_ball(tetrahedron_points(c));
-      exempt_ratio2_ = std::max(exempt_ratio2_, ball.squared_radius / ball.squared_shortest);
       ++exempt_in_star_;
+      const Tetrahedron_frame frame(tetrahedron_points(c));
+      if (frame.is_flat()) continue;  // one with its ratio will not do
+      const Tetrahedron_ball ball = frame.ball();
+      exempt_ratio2_ = std::max(exempt_ratio2_, ball.squared_radius / ball.squared_shortest);
     }
   }
 
@@ -164,13 +166,14 @@ class Vertex_mover_3 {
     return made_.value() > before.value();
   }
 
-  /// Looks for a place: the first that is good enough, else the best that is better than what there is.
+  /// Looks for a place: the first that is good enough, else the best that is better than what there is, unless exempt tetrahedra are in the
+  /// star: there it would take as long again for little.
   bool search(const Vec_3& from, double now, double wanted) {
     refused_at_ = 0;
     is_averaging_ = false;
     measured_filling_.assign(hole_.filling().size(), {});
     is_cured_ = try_all(from, wanted - rounding, true);
-    if (is_cured_) return true;
+    if (is_cured_ || exempt_in_star_ > 0) return is_cured_;
     measured_filling_.assign(hole_.filling().size(), {});
     return try_all(from, now, false);
   }
@@ -218,22 +221,22 @@ class Vertex_mover_3 {
       is_any |= in_conflict_[k];
     }
     if (!is_any) return refused;
-    int exempt = 0;
+    exempt_made_.clear();
     made_ = {};
     for (std::size_t k = 0; k < filling.size(); ++k)
       if (!in_conflict_[k]) {
         worst = std::max(worst, measured_filling(k, limit));
-        exempt += measured_filling_[k].exempt;
-        if (worst >= limit || exempt > exempt_in_star_) return refused;
+        if (measured_filling_[k].exempt) exempt_made_.push_back(hole_.points_of(filling[k]));
+        if (worst >= limit || exempt_made_.size() > exempt_in_star_) return refused;
         if (is_averaging_) made_.add(hole_.points_of(filling[k]));
       }
     const auto face = [&](Tetrahedron_points corners, std::size_t i) {
       corners[i] = at;
       std::uint8_t is_exempt;
       worst = std::max(worst, judged(corners, limit, is_exempt));
-      exempt += is_exempt;
+      if (is_exempt) exempt_made_.push_back(corners);
       if (is_averaging_) made_.add(corners);
-      return worst < limit && exempt <= exempt_in_star_;
+      return worst < limit && exempt_made_.size() <= exempt_in_star_;
     };
     for (std::size_t k = 0; k < filling.size(); ++k)
       if (in_conflict_[k])
@@ -271,7 +274,8 @@ class Vertex_mover_3 {
         if (is_boundary && !face(tetrahedron_points(c), static_cast<std::size_t>(i))) return refused;
       }
     }
-    return worst;
+    const auto is_explained = [this](const Tetrahedron_points& t) { return judge_.is_explained(t); };
+    return std::ranges::all_of(exempt_made_, is_explained) ? worst : refused;
   }
 
   enum class Beyond { boundary, in_conflict, refused };
@@ -335,8 +339,9 @@ class Vertex_mover_3 {
   Vec_3 place_;
   double nearest_ = 0;
   bool is_foreign_ = false, is_cured_ = false;
-  int exempt_in_star_ = 0;      ///< where others may take their places, else 0
+  std::size_t exempt_in_star_ = 0;  ///< where others may take their places, else 0
   double exempt_ratio2_ = 0;    ///< the largest of their radius-edge ratios, squared
+  std::vector<Tetrahedron_points> exempt_made_;  ///< in their places, at the last place
   std::vector<Measured> measured_filling_;
   std::vector<std::uint8_t> in_conflict_;
   std::vector<Cell_handle> outside_;
