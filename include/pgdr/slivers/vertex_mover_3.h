@@ -166,14 +166,13 @@ class Vertex_mover_3 {
     return made_.value() > before.value();
   }
 
-  /// Looks for a place: the first that is good enough, else the best that is better than what there is, unless exempt tetrahedra are in the
-  /// star: there it would take as long again for little.
+  /// Looks for a place: the first that is good enough, else the best that is better than what there is.
   bool search(const Vec_3& from, double now, double wanted) {
     refused_at_ = 0;
     is_averaging_ = false;
     measured_filling_.assign(hole_.filling().size(), {});
     is_cured_ = try_all(from, wanted - rounding, true);
-    if (is_cured_ || exempt_in_star_ > 0) return is_cured_;
+    if (is_cured_) return true;
     measured_filling_.assign(hole_.filling().size(), {});
     return try_all(from, now, false);
   }
@@ -195,9 +194,13 @@ class Vertex_mover_3 {
     for (const double step : steps)
       for (const double sign : {1.0, -1.0})
         if (attempt(sign * steepest_, step)) return true;
-    for (const double step : steps)
+    for (const double step : steps) {
       for (const Vec_3& d : directions)
         if (attempt((1 / length(d)) * d, step)) return true;
+      // Where exempt tetrahedra are, hardly any place is better. Seconds on a13, and tetrahedra below 12 degrees left: all steps 2.5, 3,867; one
+      // 2.1, 3,943; none 1.5, 4,234. Without it a04 keeps 665 exempt ones instead of 592.
+      if (!ends_at_first && exempt_in_star_ > 0) break;
+    }
     return is_any;
   }
 
