@@ -13,6 +13,7 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/slivers/directions.h>
+#include <pgdr/slivers/exempt_tetrahedra_3.h>
 #include <pgdr/slivers/tetrahedron_judge.h>
 
 namespace pgdr {
@@ -29,7 +30,7 @@ class Sliver_inserter_3 {
   using Point = typename Tr::Point;
 
   Sliver_inserter_3(Tr& tr, Complex& complex, const Tetrahedron_judge<Criteria>& judge, const Territory_3<Tr>& territory)
-      : complex_(complex), judge_(judge), cavity_(tr) {
+      : complex_(complex), judge_(judge), cavity_(tr), gone_(judge.acute()) {
     cavity_.set_territory(territory);
   }
 
@@ -66,21 +67,6 @@ class Sliver_inserter_3 {
   const std::vector<Cell_handle>& star() const { return cavity_.star(); }
 
  private:
-  /// How many there are, and the largest radius-edge ratio among them, squared.
-  struct Exempt_tetrahedra {
-    std::size_t count = 0;
-    double squared_ratio = 0;
-
-    void add(const Tetrahedron_points& corners) {
-      ++count;
-      const Tetrahedron_frame frame(corners);
-      if (frame.is_flat()) return;  // none that is made is
-      const Tetrahedron_ball ball = frame.ball();
-      squared_ratio = std::max(squared_ratio, ball.squared_radius / ball.squared_shortest);
-    }
-    bool is_no_worse_than(const Exempt_tetrahedra& o) const { return count <= o.count && squared_ratio <= o.squared_ratio; }
-  };
-
   /// As `Vertex_mover_3::worst_at`; besides, no new edge may be shorter than half of the shortest one here,
   /// and where exempt tetrahedra go, only a cure will do.
   double worst_at(Cell_handle c, const Vec_3& at, double limit, double wanted) {
@@ -89,11 +75,12 @@ class Sliver_inserter_3 {
     const Point p(at.x, at.y, at.z);
     double worst = -1;
     // Mostly the sliver's own faces are in the way: then the rest of the cavity is not looked for.
-    Exempt_tetrahedra gone, made;
-    exempt_.clear();
+    gone_.clear();
+    made_.clear();
+    double largest_ratio = 0;
     const auto cell = [&](Cell_handle d) {
       if (d->state() == Cell_state::exempt) {
-        gone.add(tetrahedron_points(d));
+        gone_.add(d);
         limit = std::min(limit, wanted);
       }
       return d->subdomain() == subdomain;
@@ -101,23 +88,21 @@ class Sliver_inserter_3 {
     const auto face = [&](Cell_handle d, int i) {
       Tetrahedron_points corners = tetrahedron_points(d);
       corners[static_cast<std::size_t>(i)] = at;
-      if (gone.count == 0) {
+      if (gone_.count() == 0) {
         worst = std::max(worst, judge_(corners, subdomain, limit));
       } else {
-        bool is_exempt;
-        worst = std::max(worst, judge_.instead_of_exempt(corners, subdomain, limit, std::numeric_limits<double>::infinity(), is_exempt));
-        if (is_exempt) {
-          made.add(corners);
-          exempt_.push_back(corners);
-        }
+        double squared_ratio;
+        worst = std::max(worst, judge_.instead_of_exempt(corners, subdomain, limit, squared_ratio));
+        if (squared_ratio > 0) made_.push_back(corners);
+        largest_ratio = std::max(largest_ratio, squared_ratio);
       }
       return worst < limit;
     };
     if (!cavity_.find(p, c, cell, face)) return refused;
-    if (is_spaced(at) && made.is_no_worse_than(gone)) {
+    if (is_spaced(at) && made_.size() <= gone_.count() && largest_ratio <= gone_.squared_ratio()) {
       features_.gather(complex_, cavity_);
-      const auto is_explained = [this](const Tetrahedron_points& t) { return judge_.is_explained(t); };
-      if (features_.deletes_any() || !std::ranges::all_of(exempt_, is_explained)) worst = refused;
+      const auto is_explained = [this](const Tetrahedron_points& t) { return gone_.explain(t); };
+      if (features_.deletes_any() || !std::ranges::all_of(made_, is_explained)) worst = refused;
     } else {
       worst = refused;
     }
@@ -135,7 +120,8 @@ class Sliver_inserter_3 {
   Tetrahedron_judge<Criteria> judge_;
   Cavity_3<Tr> cavity_;
   Cavity_features_3<Tr> features_;
-  std::vector<Tetrahedron_points> exempt_;  ///< that would be made at the last place
+  Exempt_tetrahedra_3<Tr> gone_;          ///< at the last place
+  std::vector<Tetrahedron_points> made_;  ///< those over the ratio in their place
 };
 
 }  // namespace pgdr

@@ -2,8 +2,6 @@
 #ifndef PGDR_SLIVERS_TETRAHEDRON_JUDGE_H
 #define PGDR_SLIVERS_TETRAHEDRON_JUDGE_H
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
@@ -18,7 +16,7 @@ class Tetrahedron_judge {
  public:
   static constexpr double refused = 2;  ///< more than any cosine
 
-  /// `acute`: where tetrahedra may be over the ratio; nowhere without.
+  /// `acute`: what tetrahedra over the ratio are explained by; none are without.
   Tetrahedron_judge(const Criteria& criteria, double min_edge_length, const Acute_neighborhood_3* acute = nullptr)
       : criteria_(&criteria), squared_min_edge_(min_edge_length * min_edge_length), acute_(acute) {}
 
@@ -30,24 +28,18 @@ class Tetrahedron_judge {
     return refuses(frame.ball(), subdomain) ? refused : cosine;
   }
 
-  /// The same, but in the place of others that are exempt, with ratios up to the root of `squared_ratio`, one that is over the ratio will do,
-  /// too, if small angles explain it: `is_exempt`, where that is yet to be asked.
-  double instead_of_exempt(const Tetrahedron_points& corners, std::int32_t subdomain, double limit, double squared_ratio, bool& is_exempt) const {
+  /// The same, but in the place of others that are exempt one that is over the ratio will do, too, if it is not flat: then `squared_ratio`
+  /// is its ratio, squared, else 0. Whether small angles explain it is yet to be asked (`Exempt_tetrahedra_3`).
+  double instead_of_exempt(const Tetrahedron_points& corners, std::int32_t subdomain, double limit, double& squared_ratio) const {
+    squared_ratio = 0;
     const Tetrahedron_frame frame(corners);
     const double cosine = frame.largest_dihedral_cosine();
-    is_exempt = false;
     if (cosine >= limit || frame.is_flat()) return refused;
     const Tetrahedron_ball ball = frame.ball();
     if (!refuses(ball, subdomain)) return cosine;
-    is_exempt = acute_ && ball.squared_shortest >= squared_min_edge_ && ball.squared_radius <= squared_ratio * ball.squared_shortest &&
-                !criteria_->is_over_size(ball, subdomain);
-    return is_exempt ? cosine : refused;
-  }
-  /// Whether a small angle is as near as to those that it explains (docs/theory.md, section 11). Takes as long as a hundred of the questions above.
-  bool is_explained(const Tetrahedron_points& corners) const {
-    constexpr double reach = 4;
-    const double distance = reach * std::sqrt(tetrahedron_ball(corners).squared_radius);
-    return std::ranges::any_of(corners, [&](const Vec_3& p) { return acute_->contains(p, distance); });
+    if (ball.squared_shortest < squared_min_edge_ || criteria_->is_over_size(ball, subdomain)) return refused;
+    squared_ratio = ball.squared_radius / ball.squared_shortest;
+    return cosine;
   }
 
   /// For a tetrahedron that was made, as `instead_of_exempt` let it be.
@@ -55,6 +47,8 @@ class Tetrahedron_judge {
   void mark_exempt(Cell_handle c) const {
     if (refuses(tetrahedron_ball(tetrahedron_points(c)), c->subdomain())) c->set_state(Cell_state::exempt);
   }
+
+  const Acute_neighborhood_3* acute() const { return acute_; }
 
   /// Whether it is poor or has too short an edge.
   bool refuses(const Tetrahedron_ball& ball, std::int32_t subdomain) const {

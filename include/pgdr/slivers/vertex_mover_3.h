@@ -15,6 +15,7 @@
 #include <pgdr/mesh/vertex_hole_3.h>
 #include <pgdr/slivers/average_shape.h>
 #include <pgdr/slivers/directions.h>
+#include <pgdr/slivers/exempt_tetrahedra_3.h>
 #include <pgdr/slivers/tetrahedron_judge.h>
 
 namespace pgdr {
@@ -34,7 +35,7 @@ class Vertex_mover_3 {
   enum class Outcome { moved, stays, foreign };
 
   Vertex_mover_3(Tr& tr, Complex& complex, Tetrahedron_judge<Criteria> judge, const Territory_3<Tr>& territory)
-      : tr_(tr), complex_(complex), judge_(judge), territory_(territory), hole_(tr), cavity_(tr) {
+      : tr_(tr), complex_(complex), judge_(judge), territory_(territory), hole_(tr), cavity_(tr), gone_(judge.acute()) {
     hole_.set_territory(territory);
     cavity_.set_territory(territory);
   }
@@ -48,7 +49,7 @@ class Vertex_mover_3 {
     if (!hole_.find(v)) return hole_.is_foreign() ? Outcome::foreign : Outcome::stays;
     const double now = measure_star();
     if (now <= wanted || !hole_.fill()) return Outcome::stays;
-    count_exempt();
+    note_exempt();
     if (!search(position(v), now, wanted)) return is_foreign_ ? Outcome::foreign : Outcome::stays;
     return move(v) ? Outcome::moved : Outcome::stays;
   }
@@ -64,7 +65,7 @@ class Vertex_mover_3 {
     if (!territory_.leads_on(v)) return Outcome::foreign;
     if (!hole_.find(v)) return hole_.is_foreign() ? Outcome::foreign : Outcome::stays;
     const double limit = std::max(measure_star(), wanted) + rounding;
-    exempt_in_star_ = 0;
+    gone_.clear();
     const Vec_3 from = position(v), way = middle_of_circumcenters() - from;
     if (!(length(way) > least_way * shortest_) || !hole_.fill()) return Outcome::stays;
     refused_at_ = 0;
@@ -114,20 +115,13 @@ class Vertex_mover_3 {
   }
 
   /// Exempt tetrahedra of the star may be replaced by as many, with ratios up to theirs.
-  void count_exempt() {
-    exempt_in_star_ = 0;
-    exempt_ratio2_ = 0;
+  void note_exempt() {
+    gone_.clear();
     for (const Cell_handle c : hole_.star()) {
-      if (c->state() == Cell_state::good) continue;
-      if (c->state() != Cell_state::exempt) {
-        exempt_in_star_ = 0;
-        return;
-      }
-      ++exempt_in_star_;
-      const Tetrahedron_frame frame(tetrahedron_points(c));
-      if (frame.is_flat()) continue;  // one with its ratio will not do
-      const Tetrahedron_ball ball = frame.ball();
-      exempt_ratio2_ = std::max(exempt_ratio2_, ball.squared_radius / ball.squared_shortest);
+      if (c->state() == Cell_state::exempt) gone_.add(c);
+      if (c->state() == Cell_state::good || c->state() == Cell_state::exempt) continue;
+      gone_.clear();
+      return;
     }
   }
 
@@ -135,11 +129,11 @@ class Vertex_mover_3 {
   double judged(const Tetrahedron_points& corners, double limit, std::uint8_t& exempt) const {
     const std::int32_t subdomain = hole_.star().front()->subdomain();
     exempt = 0;
-    if (exempt_in_star_ == 0) return judge_(corners, subdomain, limit);
-    bool is_exempt;
-    const double cosine = judge_.instead_of_exempt(corners, subdomain, limit, exempt_ratio2_, is_exempt);
-    exempt = is_exempt;
-    return cosine;
+    if (gone_.count() == 0) return judge_(corners, subdomain, limit);
+    double squared_ratio;
+    const double cosine = judge_.instead_of_exempt(corners, subdomain, limit, squared_ratio);
+    exempt = squared_ratio > 0;
+    return squared_ratio <= gone_.squared_ratio() ? cosine : refused;
   }
 
   Vertex_handle vertex() const { return hole_.star().front()->vertex(hole_.apex(0)); }
@@ -199,7 +193,7 @@ class Vertex_mover_3 {
         if (attempt((1 / length(d)) * d, step)) return true;
       // Where exempt tetrahedra are, hardly any place is better. Seconds on a13, and tetrahedra below 12 degrees left: all steps 2.5, 3,867; one
       // 2.1, 3,943; none 1.5, 4,234. Without it a04 keeps 665 exempt ones instead of 592.
-      if (!ends_at_first && exempt_in_star_ > 0) break;
+      if (!ends_at_first && gone_.count() > 0) break;
     }
     return is_any;
   }
@@ -230,7 +224,7 @@ class Vertex_mover_3 {
       if (!in_conflict_[k]) {
         worst = std::max(worst, measured_filling(k, limit));
         if (measured_filling_[k].exempt) exempt_made_.push_back(hole_.points_of(filling[k]));
-        if (worst >= limit || exempt_made_.size() > exempt_in_star_) return refused;
+        if (worst >= limit || exempt_made_.size() > gone_.count()) return refused;
         if (is_averaging_) made_.add(hole_.points_of(filling[k]));
       }
     const auto face = [&](Tetrahedron_points corners, std::size_t i) {
@@ -239,7 +233,7 @@ class Vertex_mover_3 {
       worst = std::max(worst, judged(corners, limit, is_exempt));
       if (is_exempt) exempt_made_.push_back(corners);
       if (is_averaging_) made_.add(corners);
-      return worst < limit && exempt_made_.size() <= exempt_in_star_;
+      return worst < limit && exempt_made_.size() <= gone_.count();
     };
     for (std::size_t k = 0; k < filling.size(); ++k)
       if (in_conflict_[k])
@@ -277,7 +271,7 @@ class Vertex_mover_3 {
         if (is_boundary && !face(tetrahedron_points(c), static_cast<std::size_t>(i))) return refused;
       }
     }
-    const auto is_explained = [this](const Tetrahedron_points& t) { return judge_.is_explained(t); };
+    const auto is_explained = [this](const Tetrahedron_points& t) { return gone_.explain(t); };
     return std::ranges::all_of(exempt_made_, is_explained) ? worst : refused;
   }
 
@@ -306,7 +300,7 @@ class Vertex_mover_3 {
     if (!is_kept) find(before);
     std::erase_if(filling_made_, [](Cell_handle c) { return Cavity_3<Tr>::contains(c); });
     cavity_.commit(is_kept ? at : before, v);
-    if (exempt_in_star_ > 0)
+    if (gone_.count() > 0)
       for_made([this](Cell_handle c) { judge_.mark_exempt(c); });
     if (is_kept) v->set_insertion_radius(nearest_);
     return is_kept;
@@ -342,8 +336,7 @@ class Vertex_mover_3 {
   Vec_3 place_;
   double nearest_ = 0;
   bool is_foreign_ = false, is_cured_ = false;
-  std::size_t exempt_in_star_ = 0;  ///< where others may take their places, else 0
-  double exempt_ratio2_ = 0;    ///< the largest of their radius-edge ratios, squared
+  Exempt_tetrahedra_3<Tr> gone_;  ///< of the star, where others may take their places
   std::vector<Tetrahedron_points> exempt_made_;  ///< in their places, at the last place
   std::vector<Measured> measured_filling_;
   std::vector<std::uint8_t> in_conflict_;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_SLIVERS_EXEMPT_TETRAHEDRA_3_H
+#define PGDR_SLIVERS_EXEMPT_TETRAHEDRA_3_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/domain/feature_id.h>
+#include <pgdr/mesh/mesh_triangulation_3.h>
+#include <pgdr/mesh/tetrahedron_ball.h>
+
+namespace pgdr {
+
+/// The exempt tetrahedra that a move or an insertion would take away, and whether others may take their places (docs/theory.md, section 12).
+template <class Tr>
+class Exempt_tetrahedra_3 {
+ public:
+  using Cell_handle = typename Tr::Cell_handle;
+
+  /// `acute`: the small angles of the input; without, nothing may take their places.
+  explicit Exempt_tetrahedra_3(const Acute_neighborhood_3* acute) : acute_(acute) {}
+
+  void clear() {
+    count_ = 0;
+    squared_ratio_ = 0;
+    edges_.clear();
+  }
+
+  void add(Cell_handle c) {
+    if (!acute_) return;
+    ++count_;
+    const Tetrahedron_points corners = tetrahedron_points(c);
+    const auto [i, j] = shortest_edge(corners);
+    if (acute_->explains(feature_of(c->vertex(static_cast<int>(i))), corners[i], feature_of(c->vertex(static_cast<int>(j))), corners[j]))
+      edges_.push_back({corners[i], corners[j]});
+    const Tetrahedron_frame frame(corners);
+    if (frame.is_flat()) return;  // one with its ratio will not do
+    const Tetrahedron_ball ball = frame.ball();
+    squared_ratio_ = std::max(squared_ratio_, ball.squared_radius / ball.squared_shortest);
+  }
+
+  std::size_t count() const { return count_; }
+
+  /// The largest radius-edge ratio, squared, but for flat ones.
+  double squared_ratio() const { return squared_ratio_; }
+
+  /// Whether small angles explain one that would be made: one is within reach, or it has the shortest edge of one that is explained by
+  /// its edge. Takes as long as a hundred tetrahedra to be measured.
+  bool explain(const Tetrahedron_points& corners) const {
+    constexpr double reach = 4;  // circumradii
+    const auto [i, j] = shortest_edge(corners);
+    const auto is_same = [&, i = i, j = j](const std::array<Vec_3, 2>& e) {
+      return (e[0] == corners[i] && e[1] == corners[j]) || (e[1] == corners[i] && e[0] == corners[j]);
+    };
+    if (std::ranges::any_of(edges_, is_same)) return true;
+    const double distance = reach * std::sqrt(tetrahedron_ball(corners).squared_radius);
+    return std::ranges::any_of(corners, [&](const Vec_3& p) { return acute_->contains(p, distance); });
+  }
+
+ private:
+  static std::array<std::size_t, 2> shortest_edge(const Tetrahedron_points& corners) {
+    std::array<std::size_t, 2> shortest{0, 1};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j)
+        if (squared_distance(corners[i], corners[j]) < squared_distance(corners[shortest[0]], corners[shortest[1]])) shortest = {i, j};
+    return shortest;
+  }
+
+  const Acute_neighborhood_3* acute_;
+  std::size_t count_ = 0;
+  double squared_ratio_ = 0;
+  std::vector<std::array<Vec_3, 2>> edges_;  ///< the shortest ones of those that have theirs explained
+};
+
+}  // namespace pgdr
+
+#endif
