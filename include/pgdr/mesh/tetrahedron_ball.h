@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
@@ -28,7 +29,20 @@ inline double squared_shortest_edge(const Tetrahedron_points& p) {
                    squared_distance(p[1], p[2]), squared_distance(p[1], p[3]), squared_distance(p[2], p[3])});
 }
 
-/// The same by rational arithmetic, each figure rounded once; for cells so flat that doubles have no say.
+/// Which corners are the ends of the shortest edge, of equal ones the first.
+inline std::array<std::size_t, 2> shortest_edge(const Tetrahedron_points& p) {
+  std::array<std::size_t, 2> ends{0, 1};
+  double shortest = squared_distance(p[0], p[1]);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j)
+      if (const double d = squared_distance(p[i], p[j]); d < shortest) {
+        shortest = d;
+        ends = {i, j};
+      }
+  return ends;
+}
+
+/// The ball by rational arithmetic, each figure rounded once; for cells so flat that doubles have no say.
 [[gnu::noinline]] inline Tetrahedron_ball exact_tetrahedron_ball(const Tetrahedron_points& p) {
   using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
   std::array<Exact::Point_3, 4> q;

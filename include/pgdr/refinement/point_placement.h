@@ -61,15 +61,7 @@ struct Circumcenter_placement {
 
 /// Middle of the shortest edge of a tetrahedron.
 inline Vec_3 middle_of_shortest_edge(const Tetrahedron_points& p) {
-  std::size_t a = 0, b = 1;
-  double shortest = squared_distance(p[0], p[1]);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j)
-      if (const double d = squared_distance(p[i], p[j]); d < shortest) {
-        shortest = d;
-        a = i;
-        b = j;
-      }
+  const auto [a, b] = shortest_edge(p);
   return 0.5 * (p[a] + p[b]);
 }
 

@@ -62,14 +62,6 @@ class Exempt_tetrahedra_3 {
   }
 
  private:
-  static std::array<std::size_t, 2> shortest_edge(const Tetrahedron_points& corners) {
-    std::array<std::size_t, 2> shortest{0, 1};
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j)
-        if (squared_distance(corners[i], corners[j]) < squared_distance(corners[shortest[0]], corners[shortest[1]])) shortest = {i, j};
-    return shortest;
-  }
-
   const Acute_neighborhood_3* acute_;
   std::size_t count_ = 0;
   double squared_ratio_ = 0;

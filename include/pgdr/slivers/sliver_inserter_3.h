@@ -56,10 +56,12 @@ class Sliver_inserter_3 {
     const Point p(place.x, place.y, place.z);
     if (!cavity_.find(p, c)) return false;
     const double nearest = std::sqrt(cavity_.squared_insertion_radius(place));
+    const bool replaces_exempt = std::ranges::any_of(cavity_.cells(), [](Cell_handle d) { return d->state() == Cell_state::exempt; });
     const Vertex_handle v = cavity_.commit(p);
     v->set_feature(3, Tr::Vertex::none);
     v->set_insertion_radius(nearest);
-    for (const Cell_handle d : cavity_.star()) judge_.mark_exempt(d);
+    if (replaces_exempt)
+      for (const Cell_handle d : cavity_.star()) judge_.mark_exempt(d);
     return true;
   }
 
@@ -74,7 +76,6 @@ class Sliver_inserter_3 {
     const std::int32_t subdomain = c->subdomain();
     const Point p(at.x, at.y, at.z);
     double worst = -1;
-    // Mostly the sliver's own faces are in the way: then the rest of the cavity is not looked for.
     gone_.clear();
     made_.clear();
     double largest_ratio = 0;
@@ -85,6 +86,7 @@ class Sliver_inserter_3 {
       }
       return d->subdomain() == subdomain;
     };
+    // Mostly the sliver's own faces are in the way: then the rest of the cavity is not looked for.
     const auto face = [&](Cell_handle d, int i) {
       Tetrahedron_points corners = tetrahedron_points(d);
       corners[static_cast<std::size_t>(i)] = at;
