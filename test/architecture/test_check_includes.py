@@ -11,6 +11,8 @@ from check_includes import check_tree, main  # noqa: E402
 
 GOOD = {
     "include/pgdr/refine_mesh_3.h": "#include <pgdr/refinement/refiner.h>\n#include <pgdr/io/writer.h>\n",
+    "include/pgdr/make_mesh_3.h": "#include <pgdr/refine_mesh_3.h>\n#include <pgdr/cgal/complex.h>\n",
+    "include/pgdr/cgal/complex.h": "#include <pgdr/refinement/refiner.h>\n#include <pgdr/parallel/loop.h>\n",
     "include/pgdr/parameters.h": "#include <functional>\n",
     "include/pgdr/domain/plc.h": "#include <pgdr/parameters.h>\n",
     "include/pgdr/mesh/cavity.h": "#include <pgdr/domain/plc.h>\nvoid f() { tds.create_cell(); }\n",
@@ -53,7 +55,11 @@ BAD = [  # (file, contents, what the message says)
     ("quality/a.h", "#include <tbb/parallel_for.h>\n", "only schedule/ and parallel/ may include TBB"),
     ("refinement/a.h", "void f() { tr.tds().delete_cell(c); }\n", "only mesh/ may change a triangulation"),
     ("conforming/a.h", "auto v = tr.insert_in_hole (p, b, e, c, i);\n", "only mesh/ may change a triangulation"),
-    ("refinement/a.h", "#include <pgdr/refine_mesh_3.h>\n", "nothing inside the house includes the front door"),
+    ("refinement/a.h", "#include <pgdr/refine_mesh_3.h>\n", "nothing inside the house includes a front door"),
+    ("io/a.h", "#include <pgdr/make_mesh_3.h>\n", "nothing inside the house includes a front door"),
+    ("io/a.h", "#include <pgdr/cgal/complex.h>\n", "io/ must not include cgal/"),
+    ("report/a.h", "#include <pgdr/slivers/a.h>\n", "report/ must not include slivers/"),
+    ("cgal/a.h", "#include <pgdr/schedule/epochs.h>\n", "cgal/ must not include schedule/"),
     ("parameters.h", "#include <pgdr/domain/plc.h>\n", "must not include rooms"),
     ("sizing/a.h", "int x;\n" * 501, "more than 500 lines"),
 ]
