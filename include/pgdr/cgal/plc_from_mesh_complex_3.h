@@ -133,6 +133,8 @@ class Plc_of_mesh_complex_3 {
 ///
 /// Facets of the complex that lie in one plane and have the same patch index are fused when the PLC is understood, so that nothing but the plane is kept of them; their
 /// vertices stay.
+/// All vertices count as given then, to be refined around at will. Where no angle of the input is small, a mesh within all bounds is left as it is; next to
+/// small ones it gets more tetrahedra, up to twice as many in all.
 /// Throws `std::invalid_argument` where a tetrahedron's circumball holds the vertex of a neighbor (exact), as after CGAL's remeshing, and where two subdomains meet without
 /// a facet of the complex between them.
 template <MeshComplex C3t3>
