@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The mesh made yesterday, finer around a point: all of its vertices stay.
+#include <iostream>
+
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Tetrahedral_remeshing/Remeshing_cell_base_3.h>
+#include <CGAL/Tetrahedral_remeshing/Remeshing_vertex_base_3.h>
+#include <CGAL/boost/graph/generators.h>
+
+#include <pgdr/make_mesh_3.h>
+
+using K = pgdr::Epick;
+using Tds = CGAL::Triangulation_data_structure_3<CGAL::Tetrahedral_remeshing::Remeshing_vertex_base_3<K>, CGAL::Tetrahedral_remeshing::Remeshing_cell_base_3<K>>;
+using C3t3 = CGAL::Mesh_complex_3_in_triangulation_3<CGAL::Delaunay_triangulation_3<K, Tds>>;
+
+int main() {
+  CGAL::Surface_mesh<K::Point_3> surface;
+  CGAL::make_icosahedron(surface, K::Point_3(0, 0, 0), 1);
+  C3t3 mesh = pgdr::make_mesh_3<C3t3>(surface, pgdr::Uniform_sizing_field(0.2));
+  const auto before = mesh.triangulation().number_of_vertices();
+  std::cout << mesh.number_of_cells_in_complex() << " tetrahedra, ";
+
+  const pgdr::Local_sizing_field<> finer(pgdr::Uniform_sizing_field(), {}, {{{0.3, 0, 0}, 0.2, 0.04}}, 0.5);
+  pgdr::refine_mesh_3(mesh, pgdr::Command_line_sizing(finer));
+  std::cout << mesh.number_of_cells_in_complex() << " when refined further\n";
+  return mesh.triangulation().number_of_vertices() > before && mesh.triangulation().is_valid() ? 0 : 1;
+}
