@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -101,6 +102,18 @@ TEST_CASE("The complex has the markers of the input, and a number where there is
   CHECK(*curves.begin() == 5);
   CHECK(c3t3.number_of_corners() == 8);
   for (auto c = c3t3.cells_in_complex_begin(); c != c3t3.cells_in_complex_end(); ++c) CHECK(c->info().value == 3);
+}
+
+TEST_CASE("Numbers for what has no marker do not wrap", "[cgal]") {
+  pgdr::Plc cube = pgdr::read_plc(data_file("cube.poly"));
+  for (auto& f : cube.facets) f.marker = 0;
+  cube.facets[0].marker = std::numeric_limits<int>::max();
+  CHECK_THROWS_AS(pgdr::make_mesh_3<C3t3>(cube, pgdr::Uniform_sizing_field(0.5)), std::length_error);
+  cube.facets[0].marker = -5;
+  const auto c3t3 = pgdr::make_mesh_3<C3t3>(cube, pgdr::Uniform_sizing_field(0.5));
+  std::set<int> patches;
+  for (auto f = c3t3.facets_in_complex_begin(); f != c3t3.facets_in_complex_end(); ++f) patches.insert(c3t3.surface_patch_index(*f));
+  CHECK(patches == std::set<int>{-5, 1});
 }
 
 TEST_CASE("The complex and its order are the same for every number of threads", "[cgal]") {

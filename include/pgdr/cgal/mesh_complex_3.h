@@ -7,7 +7,8 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <limits>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -46,13 +47,17 @@ constexpr void require_unweighted() {
 /// References as CGAL's indices, of which 0 means "not in the complex": what has none gets the first number above all others.
 class Index_of_reference {
  public:
-  void add(int reference) { unmarked_ = std::max(unmarked_, reference + 1); }
-  int operator()(int reference) const { return reference != 0 ? reference : unmarked_; }
-  /// For what is not to be one with all else that has no reference.
-  int operator()(int reference, Index position) const { return reference != 0 ? reference : unmarked_ + static_cast<int>(position); }
+  void add(int reference) { largest_ = std::max(largest_, reference); }
+  /// `position`: for what is not to be one with all else that has no reference. Throws `std::length_error` where no number is left.
+  int operator()(int reference, Index position = 0) const {
+    if (reference != 0) return reference;
+    const std::int64_t number = std::int64_t{largest_} + 1 + position;
+    if (number > std::numeric_limits<int>::max()) throw std::length_error("markers are so large that no numbers are left for what has none");
+    return static_cast<int>(number);
+  }
 
  private:
-  int unmarked_ = 1;
+  int largest_ = 0;
 };
 
 template <MeshComplex C3t3, class K>
