@@ -140,6 +140,13 @@ Point_placement parse_placement(const std::string& text) {
   throw Usage_error("--placement must be lazy, circumcenter, type1 or type2, not '" + text + "'");
 }
 
+Gmsh_format parse_gmsh_format(const std::string& text) {
+  if (text == "4.1") return Gmsh_format::binary_4_1;
+  if (text == "4.1-ascii") return Gmsh_format::ascii_4_1;
+  if (text == "2.2") return Gmsh_format::ascii_2_2;
+  throw Usage_error("--gmsh-format must be 4.1, 4.1-ascii or 2.2, not '" + text + "'");
+}
+
 std::array<double, 3> parse_point(const std::string& option, const std::string& text) {
   std::array<double, 3> p{};
   if (!read_numbers(std::string_view(text), p))

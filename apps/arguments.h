@@ -10,6 +10,7 @@
 
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/plc.h>
+#include <pgdr/io/gmsh.h>
 #include <pgdr/parameters.h>
 #include <pgdr/sizing/sizing_places.h>
 
@@ -62,6 +63,8 @@ unsigned parse_threads(const std::string& option, const std::string& text);
 
 /// The value of `--placement`.
 Point_placement parse_placement(const std::string& text);
+/// "4.1", "4.1-ascii" or "2.2".
+Gmsh_format parse_gmsh_format(const std::string& text);
 
 /// The value of `--hole`: "x,y,z".
 std::array<double, 3> parse_point(const std::string& option, const std::string& text);

@@ -52,6 +52,7 @@ struct Mesh_arguments {
   std::string gradation;
   std::string radius_edge_ratio;
   std::string placement;
+  std::string gmsh_format = "4.1";
   std::string min_dihedral;
   std::string optimize;
   std::string min_edge_length;
@@ -77,7 +78,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
                   "A PLC (.poly, .smesh) or a closed surface (.off, .stl, .ply, .obj); several are the parts of an assembly, a region each")
       ->required()
       ->type_name("");
-  parser.add_option("-o,--output", arguments.outputs, "File to write, .vtu or .mesh; repeatable")
+  parser.add_option("-o,--output", arguments.outputs, "File to write, in the format of its extension: .vtu, .mesh, .msh (Gmsh), .inp (Abaqus), .su2 or .ele (TetGen); repeatable")
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
@@ -120,6 +121,9 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       .add_option("--optimize", arguments.optimize,
                   "Rounds in which vertices inside move to make tetrahedra better on average, making no angle below --min-dihedral where there is none around (default 0)")
       ->type_name("N");
+  parser
+      .add_option("--gmsh-format", arguments.gmsh_format, "Version of .msh files: 4.1 (default, binary), 4.1-ascii, or 2.2 for older readers (gmshToFoam, MFEM)")
+      ->type_name("VERSION");
   arguments.domain.add_to(parser);
   add_problems_option(parser, arguments.problems);
   parser.add_flag("--ignore-region-sizes", arguments.ignore_region_sizes,
@@ -237,8 +241,11 @@ Parameters parameters(const Mesh_arguments& arguments) {
 
 /// Everything that can be found out before the work starts.
 void check_outputs(const Mesh_arguments& arguments) {
-  for (const std::string& output : arguments.outputs) require_extension("-o", output, {".vtu", ".mesh"});
-  std::vector<std::filesystem::path> files(arguments.outputs.begin(), arguments.outputs.end());
+  for (const std::string& output : arguments.outputs) require_extension("-o", output, mesh_extensions());
+  parse_gmsh_format(arguments.gmsh_format);
+  std::vector<std::filesystem::path> files;
+  for (const std::string& output : arguments.outputs)
+    for (auto& file : mesh_files(output)) files.push_back(std::move(file));
   if (!arguments.stats.empty() && arguments.stats != "-") files.emplace_back(arguments.stats);
   if (!arguments.quality.empty()) {
     require_extension("--quality", arguments.quality, {".csv"});
@@ -319,7 +326,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   if (is_usable) {
     for (const std::string& output : arguments.outputs) {
       progress.show("writing " + output);
-      write_mesh(mesh, output);
+      write_mesh(mesh, output, parse_gmsh_format(arguments.gmsh_format));
     }
     if (!arguments.quality.empty()) {
       progress.show("writing " + arguments.quality);

@@ -9,21 +9,17 @@
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/medit.h>
 
-#include "numbers.h"
-#include "text_blocks.h"
+#include "mesh_groups.h"
 
 namespace pgdr {
 namespace {
 
 using io_detail::put_char;
 using io_detail::put_number;
+using io_detail::reference_of;
 
 /// Of the longest rows: four vertices and a reference.
 constexpr std::size_t most_columns = 5;
-
-std::int32_t reference_of(const std::vector<std::int32_t>& references, std::size_t i) {
-  return i < references.size() ? references[i] : 0;
-}
 
 /// Formats the rows [first, last) of the vertex section; returns the end of the text.
 char* format_points(const Indexed_mesh_3& mesh, std::size_t first, std::size_t last, char* out) {

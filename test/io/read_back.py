@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads a mesh that pgdr wrote with meshio and, if it is there, VTK, and compares it with what was told.
 
-usage: read_back.py MESH POINTS TETRAHEDRA [--exempt N] [--volume V]
+usage: read_back.py MESH POINTS TETRAHEDRA [--exempt N] [--volume V] [--group NAME:TYPE:COUNT]...
 
 Exit code 0: all equal; 1: not (one line says what); 77: meshio is not installed.
 """
@@ -24,6 +24,20 @@ def signed_volumes(points, tetrahedra):
     return numpy.einsum("ij,ij->i", b - a, numpy.cross(c - a, d - a)) / 6
 
 
+def elements_of(mesh, name, kind):
+    """How many elements of a type are in a named group: Gmsh's physical groups, sets of others, or a tag where the format has no names."""
+    number = int(name.rpartition("_")[2])
+    if name in mesh.field_data:
+        number, tags = mesh.field_data[name][0], "gmsh:physical"
+    elif name in mesh.cell_sets:
+        return sum(len(s) for s, block in zip(mesh.cell_sets[name], mesh.cells) if s is not None and block.type == kind)
+    else:
+        tags = next((t for t in ("su2:tag", "tetgen:ref", "medit:ref") if t in mesh.cell_data), None)
+        if tags is None:
+            sys.exit(f"no group {name}: {sorted(mesh.field_data)}, {sorted(mesh.cell_sets)}, {sorted(mesh.cell_data)}")
+    return sum(int((values == number).sum()) for values, block in zip(mesh.cell_data[tags], mesh.cells) if block.type == kind)
+
+
 def expect(what, found, expected):
     if found != expected:
         sys.exit(f"{what}: {found}, expected {expected}")
@@ -42,6 +56,9 @@ def check_with_meshio(arguments):
         expected = arguments.volume
         if expected is not None and abs(volumes.sum() - expected) > 1e-9 * abs(expected):
             sys.exit(f"volume: {volumes.sum()}, expected {expected}")
+    for group in arguments.group:
+        name, kind, count = group.split(":")
+        expect(f"elements of {name}", elements_of(mesh, name, kind), int(count))
     if arguments.mesh.endswith(".vtu"):
         data = {name: values[0] for name, values in mesh.cell_data.items()}
         expect("cell data", sorted(data), ["exempt", "min_dihedral_angle", "radius_edge_ratio", "region", "unrefined"])
@@ -85,6 +102,7 @@ def main():
     parser.add_argument("tetrahedra", type=int)
     parser.add_argument("--exempt", type=int)
     parser.add_argument("--volume", type=float)
+    parser.add_argument("--group", action="append", default=[])
     arguments = parser.parse_args()
     try:
         import meshio  # noqa: F401

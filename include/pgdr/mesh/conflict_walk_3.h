@@ -2,6 +2,8 @@
 #ifndef PGDR_MESH_CONFLICT_WALK_3_H
 #define PGDR_MESH_CONFLICT_WALK_3_H
 
+#include <CGAL/enum.h>
+
 namespace pgdr {
 
 /// Whether p is where a vertex of c is; such a point is in conflict with nothing.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_IO_ABAQUS_H
+#define PGDR_IO_ABAQUS_H
+
+#include <filesystem>
+
+#include <pgdr/mesh/indexed_mesh_3.h>
+
+namespace pgdr {
+
+/// Writes tetrahedra (`C3D4`), and triangles on facets (`S3`), as an Abaqus input deck, as CalculiX reads it, too: nodes and elements without material, steps or
+/// loads. Element sets "region_ID" and "marker_M". Numbers are from 1, those of the triangles behind those of the tetrahedra.
+/// Throws `Output_error`; the file appears complete or not at all.
+void write_abaqus(const Indexed_mesh_3& mesh, const std::filesystem::path& path);
+
+}  // namespace pgdr
+
+#endif

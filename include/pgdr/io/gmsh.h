@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef PGDR_IO_GMSH_H
+#define PGDR_IO_GMSH_H
+
+#include <filesystem>
+
+#include <pgdr/mesh/indexed_mesh_3.h>
+
+namespace pgdr {
+
+/// The versions of Gmsh's `.msh` format that are written.
+enum class Gmsh_format {
+  binary_4_1,  ///< what Gmsh itself, DOLFINx and meshio read fastest
+  ascii_4_1,
+  ascii_2_2    ///< what older readers know: gmshToFoam, MFEM
+};
+
+/// Writes tetrahedra, and triangles on facets, as Gmsh's `.msh` (Gmsh manual, sections "MSH file format" and "MSH file format version 2").
+///
+/// Each region is a volume and a physical group "region_ID", each marker a surface and a physical group "marker_M". Tags are the ids and markers where these are positive, else
+/// the smallest positive numbers that are not taken. Nodes and elements are numbered from 1, elements by triangles, then tetrahedra; nodes keep their order, within a group so do elements.
+/// Throws `Output_error`; the file appears complete or not at all.
+void write_gmsh(const Indexed_mesh_3& mesh, const std::filesystem::path& path, Gmsh_format format = Gmsh_format::binary_4_1);
+
+}  // namespace pgdr
+
+#endif

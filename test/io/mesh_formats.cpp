@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/wait.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <pgdr/io/tetgen.h>
+#include <pgdr/io/write_mesh.h>
+
+#include "../catch.h"
+#include "../inputs.h"
+#include "sample_mesh.h"
+#include "temporary_folder.h"
+
+namespace {
+
+/// With references that are no tags: 0, negative, and the largest there is.
+pgdr::Indexed_mesh_3 mesh_with_references() {
+  pgdr::Indexed_mesh_3 mesh = pgdr_test::sample_mesh(5);
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) mesh.tetrahedron_references[i] = static_cast<std::int32_t>(i % 3) - 1;  // -1, 0, 1
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) mesh.triangle_references[i] = i == 0 ? 0 : i == 1 ? 2147483647 : 7;
+  return mesh;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Exit code of read_back.py, which reads with meshio.
+int read_back(const std::filesystem::path& file, const pgdr::Indexed_mesh_3& mesh, const std::string& more) {
+  const auto script = pgdr_test::data_file("../test/io/read_back.py").lexically_normal();
+  const int status = std::system(("'" + pgdr_test::python() + "' -B '" + script.string() + "' '" + file.string() + "' " + std::to_string(mesh.points.size()) + " " +
+                                  std::to_string(mesh.tetrahedra.size()) + more).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+template <class T>
+std::map<std::int32_t, std::size_t> count(const std::vector<T>& references) {
+  std::map<std::int32_t, std::size_t> n;
+  for (const T r : references) ++n[r];
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("meshes with groups read into meshio, in all formats that have some") {
+  const pgdr_test::Temporary_folder folder;
+  const auto mesh = mesh_with_references();
+  std::string groups;
+  for (const auto& [r, n] : count(mesh.tetrahedron_references)) groups += " --group region_" + std::to_string(r) + ":tetra:" + std::to_string(n);
+  std::string with_triangles = groups;
+  for (const auto& [r, n] : count(mesh.triangle_references)) with_triangles += " --group marker_" + std::to_string(r) + ":triangle:" + std::to_string(n);
+  int code = 0;
+  for (const auto format : {pgdr::Gmsh_format::binary_4_1, pgdr::Gmsh_format::ascii_4_1, pgdr::Gmsh_format::ascii_2_2}) {
+    pgdr::write_mesh(mesh, folder / "a.msh", format);
+    code = read_back(folder / "a.msh", mesh, with_triangles);
+    if (code == 77) PGDR_SKIP("python3-meshio is not installed");
+    CHECK(code == 0);
+    CHECK(read_back(folder / "a.msh", mesh, " --group region_1:tetra:1 2>/dev/null") == 1);
+  }
+  pgdr::write_mesh(mesh, folder / "a.inp");
+  CHECK(read_back(folder / "a.inp", mesh, with_triangles) == 0);
+  pgdr::write_mesh(mesh, folder / "a.ele");
+  CHECK(read_back(folder / "a.ele", mesh, groups) == 0);
+  pgdr::write_mesh(mesh, folder / "a.su2");
+  CHECK(read_back(folder / "a.su2", mesh, "") == 0);
+}
+
+TEST_CASE("an SU2 file has a marker for each marker") {
+  const pgdr_test::Temporary_folder folder;
+  const auto mesh = mesh_with_references();
+  pgdr::write_mesh(mesh, folder / "a.su2");
+  const std::string text = text_of(folder / "a.su2");
+  CHECK(text.find("\nNMARK= 3\n") != std::string::npos);
+  for (const auto& [r, n] : count(mesh.triangle_references))
+    CHECK(text.find("\nMARKER_TAG= marker_" + std::to_string(r) + "\nMARKER_ELEMS= " + std::to_string(n) + "\n") != std::string::npos);
+}
+
+TEST_CASE("TetGen's files hold points, tetrahedra, faces and edges with what they refer to") {
+  const pgdr_test::Temporary_folder folder;
+  const auto mesh = mesh_with_references();
+  CHECK(pgdr::mesh_files(folder / "a.ele").size() == 4);
+  pgdr::write_mesh(mesh, folder / "a.ele");
+  const auto check = [&](const char* name, std::size_t columns, const auto& elements, const std::vector<std::int32_t>& references) {
+    INFO(name);
+    std::istringstream in(text_of(folder / name));
+    std::size_t n = 0;
+    std::string rest;
+    in >> n;
+    std::getline(in, rest);
+    REQUIRE(n == elements.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      std::size_t number = 0;
+      in >> number;
+      CHECK(number == i);
+      for (std::size_t k = 0; k < columns; ++k) {
+        double x = 0;
+        in >> x;
+        CHECK(x == static_cast<double>(elements[i][k]));
+      }
+      std::int32_t reference = 0;
+      in >> reference;
+      CHECK(reference == references[i]);
+    }
+    in >> rest;
+    CHECK_FALSE(in);
+  };
+  check("a.node", 3, mesh.points, mesh.point_references);
+  check("a.ele", 4, mesh.tetrahedra, mesh.tetrahedron_references);
+  check("a.face", 3, mesh.triangles, mesh.triangle_references);
+  check("a.edge", 2, mesh.edges, mesh.edge_references);
+}
+
+TEST_CASE("lengths come out in the user's unit in every format") {
+  const pgdr_test::Temporary_folder folder;
+  pgdr::Indexed_mesh_3 mesh;
+  mesh.exponent = 2;
+  mesh.points = {{0, 0, 0}, {1.25, 0, 0}, {0, 1.25, 0}, {0, 0, 1.25}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  mesh.triangles = {{0, 2, 1}};
+  for (const char* name : {"a.inp", "a.su2", "a.ele", "a.mesh"}) {
+    INFO(name);
+    pgdr::write_mesh(mesh, folder / name);
+    const std::string text = text_of(folder / (name == std::string("a.ele") ? "a.node" : name));
+    CHECK(text.find("1.25") == std::string::npos);
+    CHECK(text.find('5') != std::string::npos);
+  }
+  for (const auto format : {pgdr::Gmsh_format::ascii_4_1, pgdr::Gmsh_format::ascii_2_2}) {
+    pgdr::write_gmsh(mesh, folder / "a.msh", format);
+    CHECK(text_of(folder / "a.msh").find("1.25") == std::string::npos);
+  }
+}
