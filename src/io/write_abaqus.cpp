@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,6 +16,13 @@ namespace {
 
 using io_detail::put_char;
 using io_detail::put_number;
+
+/// In the 20 characters that a number may take: exactly where that is enough, else in 13 digits.
+char* put_real(char* out, double x) {
+  constexpr std::ptrdiff_t most = 20;
+  char* const end = put_number(out, x);
+  return end - out <= most ? end : std::to_chars(out, out + io_detail::max_number_length, x, std::chars_format::scientific, 12).ptr;
+}
 
 template <std::size_t N>
 void write_elements(Atomic_file& out, const char* type, const std::vector<io_detail::Mesh_group>& groups, const std::vector<std::array<std::uint32_t, N>>& elements,
@@ -35,7 +43,12 @@ void write_abaqus(const Indexed_mesh_3& mesh, const std::filesystem::path& path)
   Atomic_file out(path);
   out.write("*HEADING\npgdr\n*NODE\n");
   io_detail::write_rows(out, mesh.points.size(), 4, [&](std::size_t first, std::size_t last, char* text) {
-    for (std::size_t i = first; i < last; ++i) text = put_char(io_detail::put_point(put_number(text, i + 1), mesh, i, ','), '\n');
+    const double unit = unit_of(mesh);
+    for (std::size_t i = first; i < last; ++i) {
+      text = put_number(text, i + 1);
+      for (const double x : mesh.points[i]) text = put_real(put_char(text, ','), unit * x);
+      text = put_char(text, '\n');
+    }
     return text;
   });
   std::size_t number = 1;

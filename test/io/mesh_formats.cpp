@@ -120,6 +120,25 @@ TEST_CASE("TetGen's files hold points, tetrahedra, faces and edges with what the
   check("a.edge", 2, mesh.edges, mesh.edge_references);
 }
 
+TEST_CASE("no number of an Abaqus deck has more than 20 characters, and all read back to 13 digits") {
+  const pgdr_test::Temporary_folder folder;
+  pgdr::Indexed_mesh_3 mesh;
+  mesh.points = {{0, 0, 0}, {-1.2345678901234567e-105, 1.2345678901234567, -1234567.8901234567}, {0.1, -0.30000000000000004, 1e300}, {3, 4, 5}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  pgdr::write_mesh(mesh, folder / "a.inp");
+  std::istringstream in(text_of(folder / "a.inp"));
+  std::string word;
+  while (std::getline(in, word) && word != "*NODE") {}
+  for (const auto& p : mesh.points) {
+    std::getline(in, word, ',');
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::getline(in, word, k < 2 ? ',' : '\n');
+      CHECK(word.size() <= 20);
+      CHECK(std::stod(word) == Approx(p[k]).epsilon(1e-12));
+    }
+  }
+}
+
 TEST_CASE("lengths come out in the user's unit in every format") {
   const pgdr_test::Temporary_folder folder;
   pgdr::Indexed_mesh_3 mesh;
