@@ -3,6 +3,7 @@
 #define PGDR_SCHEDULE_TASK_ORDER_H
 
 #include <cstdint>
+#include <initializer_list>
 
 #include <pgdr/octree/octree_key.h>
 
