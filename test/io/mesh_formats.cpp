@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/wait.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,7 +13,7 @@
 #include <pgdr/io/write_mesh.h>
 
 #include "../catch.h"
-#include "../inputs.h"
+#include "read_back.h"
 #include "sample_mesh.h"
 #include "temporary_folder.h"
 
@@ -35,12 +32,8 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Exit code of read_back.py, which reads with meshio.
 int read_back(const std::filesystem::path& file, const pgdr::Indexed_mesh_3& mesh, const std::string& more) {
-  const auto script = pgdr_test::data_file("../test/io/read_back.py").lexically_normal();
-  const int status = std::system(("'" + pgdr_test::python() + "' -B '" + script.string() + "' '" + file.string() + "' " + std::to_string(mesh.points.size()) + " " +
-                                  std::to_string(mesh.tetrahedra.size()) + more).c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return pgdr_test::read_back(file, mesh.points.size(), mesh.tetrahedra.size(), more);
 }
 
 template <class T>

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/wait.h>
-
-#include <cstdlib>
 #include <string>
 
 #include <pgdr/io/medit.h>
@@ -10,28 +7,18 @@
 
 #include "../catch.h"
 #include "../inputs.h"
+#include "read_back.h"
 #include "sample_mesh.h"
 #include "temporary_folder.h"
 
 namespace {
 
-/// Runs a shell command; its exit code.
-int run(const std::string& command) {
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+using pgdr_test::read_back;
+using pgdr_test::run;
 
 bool has_meshio() {
   const std::string python = pgdr_test::python();
   return !python.empty() && run("'" + python + "' -c 'import meshio' >/dev/null 2>&1") == 0;
-}
-
-/// Exit code of read_back.py on a mesh that it is told the truth about, or a lie.
-int read_back(const std::filesystem::path& file, std::size_t points, std::size_t tetrahedra,
-              const std::string& more = "") {
-  const auto script = pgdr_test::data_file("../test/io/read_back.py").lexically_normal();
-  return run("'" + pgdr_test::python() + "' -B '" + script.string() + "' '" + file.string() + "' " +
-             std::to_string(points) + " " + std::to_string(tetrahedra) + more);
 }
 
 double volume_of(const pgdr::Indexed_mesh_3& mesh) {

@@ -2,9 +2,9 @@
 #ifndef PGDR_CGAL_PLC_FROM_MESH_COMPLEX_3_H
 #define PGDR_CGAL_PLC_FROM_MESH_COMPLEX_3_H
 
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <CGAL/Unique_hash_map.h>
