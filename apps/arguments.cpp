@@ -93,6 +93,26 @@ double parse_dihedral_angle(const std::string& option, const std::string& text) 
   return value;
 }
 
+double parse_patch_angle(const std::string& text) {
+  const double value = parse_number("--patch-angle", text);
+  if (!(value >= 0 && value <= 180)) throw Usage_error("--patch-angle must be an angle from 0 to 180 degrees, not " + text);
+  return value;
+}
+
+std::pair<int, std::string> parse_name(const std::string& option, const std::string& text) {
+  const std::size_t sign = text.find('=');
+  int number = 0;
+  if (sign == std::string::npos || sign + 1 == text.size() || !read_all(std::string_view(text).substr(0, sign), number))
+    throw Usage_error(option + ": '" + text + "' is not a whole number, '=' and a name");
+  return {number, text.substr(sign + 1)};
+}
+
+int parse_order(const std::string& text) {
+  if (text == "1") return 1;
+  if (text == "2") return 2;
+  throw Usage_error("--order must be 1 or 2, not " + text);
+}
+
 std::size_t parse_count(const std::string& option, const std::string& text) {
   std::size_t value = 0;
   if (!read_all(text, value) || value == 0)

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
@@ -68,6 +69,15 @@ Gmsh_format parse_gmsh_format(const std::string& text);
 
 /// The value of `--hole`: "x,y,z".
 std::array<double, 3> parse_point(const std::string& option, const std::string& text);
+
+/// The value of `--patch-angle`: from 0 to 180 degrees.
+double parse_patch_angle(const std::string& text);
+
+/// The value of `--name-marker` and `--name-region`: "3=inlet".
+std::pair<int, std::string> parse_name(const std::string& option, const std::string& text);
+
+/// The value of `--order`: 1 or 2.
+int parse_order(const std::string& text);
 
 /// The value of `--region`: "x,y,z:id" or "x,y,z:id:R" with a whole number id and R > 0.
 Plc_region<Default_kernel> parse_region(const std::string& text);

@@ -12,6 +12,9 @@
 
 #include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
+#include <pgdr/io/input_facets.h>
+#include <pgdr/io/read_plc.h>
+#include <pgdr/io/second_order.h>
 #include <pgdr/io/write_mesh.h>
 #include <pgdr/io/write_quality.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
@@ -34,6 +37,7 @@
 #include "messages.h"
 #include "read_domain.h"
 #include "size_estimate.h"
+#include "sizing_options.h"
 #include "stats_file.h"
 #include "trace_file.h"
 
@@ -45,14 +49,13 @@ namespace {
 struct Mesh_arguments {
   std::vector<std::string> inputs;
   std::vector<std::string> outputs;
-  std::string size;
-  std::vector<std::string> refine_boxes;
-  std::vector<std::string> size_balls;
-  std::string size_near_surface;
-  std::string gradation;
+  Sizing_options sizing;
   std::string radius_edge_ratio;
   std::string placement;
+  std::string order = "1";
   std::string gmsh_format = "4.1";
+  bool vtu_triangles = false;
+  std::string vtu_compression = "1";
   std::string min_dihedral;
   std::string optimize;
   std::string min_edge_length;
@@ -82,28 +85,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
-  parser.add_option("--size", arguments.size, "Upper bound of the circumradius of every tetrahedron")
-      ->type_name("R");
-  parser
-      .add_option(
-          "--refine-box", arguments.refine_boxes,
-          "Upper bound R of the circumradius inside a box, as x0,y0,z0,x1,y1,z1:R; repeatable, the smallest "
-          "bound wins")
-      ->type_name("BOX:R")
-      ->allow_extra_args(false);
-  parser
-      .add_option("--size-ball", arguments.size_balls,
-                  "Upper bound R of the circumradius inside a ball, as x,y,z,r:R; r may be 0; repeatable")
-      ->type_name("BALL:R")
-      ->allow_extra_args(false);
-  parser
-      .add_option("--size-near-surface", arguments.size_near_surface,
-                  "Upper bound of the circumradius by the circumcenter's distance from the input's facets: R0 on them, R1 at the distance D and beyond, linear in between")
-      ->type_name("R0:R1:D");
-  parser
-      .add_option("--gradation", arguments.gradation,
-                  "Let the bounds of boxes and balls grow by G for each unit of distance around them, instead of ending there (default: no bound around them)")
-      ->type_name("G");
+  arguments.sizing.add_to(parser);
   parser
       .add_option("--radius-edge-ratio", arguments.radius_edge_ratio,
                   "Upper bound of circumradius over shortest edge, at least 2 (default 2)")
@@ -124,6 +106,9 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
   parser
       .add_option("--gmsh-format", arguments.gmsh_format, "Version of .msh files: 4.1 (default, binary), 4.1-ascii, or 2.2 for older readers (gmshToFoam, MFEM)")
       ->type_name("VERSION");
+  parser.add_option("--order", arguments.order, "2: tetrahedra of second order, with a node in the middle of each (straight) edge, in the formats that have them")->type_name("N");
+  parser.add_flag("--vtu-triangles", arguments.vtu_triangles, "Write the triangles on facets to .vtu files as well, with their markers and the input's facets");
+  parser.add_option("--vtu-compression", arguments.vtu_compression, "How hard to compress .vtu files, 0 (not at all) to 9 (default 1)")->type_name("LEVEL");
   arguments.domain.add_to(parser);
   add_problems_option(parser, arguments.problems);
   parser.add_flag("--ignore-region-sizes", arguments.ignore_region_sizes,
@@ -161,54 +146,6 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       ->type_name("FILE");
 }
 
-Command_line_sizing::Local local_sizes(const Mesh_arguments& arguments) {
-  Uniform_sizing_field everywhere;
-  if (!arguments.size.empty()) everywhere = Uniform_sizing_field(parse_positive("--size", arguments.size));
-  std::vector<Sizing_box> boxes;
-  for (const std::string& box : arguments.refine_boxes) boxes.push_back(parse_sizing_box(box));
-  std::vector<Sizing_ball> balls;
-  for (const std::string& ball : arguments.size_balls) balls.push_back(parse_sizing_ball(ball));
-  double gradation = Command_line_sizing::Local::no_gradation;
-  if (!arguments.gradation.empty()) {
-    gradation = parse_positive("--gradation", arguments.gradation);
-    if (!(gradation < 1)) throw Usage_error("--gradation must be less than 1, because nothing bounds sizes that grow faster than the distance, not " + arguments.gradation);
-    if (boxes.empty() && balls.empty()) throw Usage_error("--gradation is of boxes and balls: it needs --refine-box or --size-ball");
-  } else if (std::ranges::any_of(balls, [](const Sizing_ball& ball) { return ball.extent == 0; })) {
-    throw Usage_error("--size-ball: a ball with a radius of 0 needs --gradation, because no circumcenter is exactly there");
-  }
-  return Command_line_sizing::Local(everywhere, std::move(boxes), std::move(balls), gradation);
-}
-
-Distance_sizing_field sizes_near_surface(const Domain& domain, const Sizes_near_surface& sizes) {
-  const double unit = unit_of(domain);
-  std::vector<Distance_sizing_field::Triangle> triangles;
-  for (const auto& facet : domain.facets)
-    for (const auto& t : facet.triangles) {
-      Distance_sizing_field::Triangle& triangle = triangles.emplace_back();
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto& p = domain.vertices[t[i]];
-        triangle[i] = {unit * p.x(), unit * p.y(), unit * p.z()};
-      }
-    }
-  return Distance_sizing_field(triangles, sizes.near, sizes.far, sizes.reach);
-}
-
-/// A place that is nowhere near the domain is a slip, more often than not.
-void warn_of_places_outside(const Command_line_sizing::Local& sizes, const Domain& domain) {
-  const double unit = unit_of(domain);
-  const auto warn = [&](const std::string& what, const auto& lower, const auto& upper) {
-    bool is_outside = false;
-    for (std::size_t k = 0; k < 3; ++k) is_outside |= lower(k) > unit * domain.upper[k] || upper(k) < unit * domain.lower[k];
-    if (is_outside) print_message("warning: the refined " + what + " lies outside of the input");
-  };
-  const auto text = [](const std::array<double, 3>& p) { return significant(p[0]) + "," + significant(p[1]) + "," + significant(p[2]); };
-  for (const Sizing_box& box : sizes.boxes())
-    warn("box from " + text(box.lower), [&](std::size_t k) { return box.lower[k]; }, [&](std::size_t k) { return box.upper[k]; });
-  for (const Sizing_ball& ball : sizes.balls())
-    warn("ball around " + text(ball.center), [&](std::size_t k) { return ball.center[k] - ball.extent; },
-         [&](std::size_t k) { return ball.center[k] + ball.extent; });
-}
-
 /// In bytes; 0: none.
 std::size_t memory_limit(const std::string& text) {
   if (text == "none") return 0;
@@ -239,10 +176,21 @@ Parameters parameters(const Mesh_arguments& arguments) {
   return p;
 }
 
+Write_options write_options(const Mesh_arguments& arguments) {
+  Write_options options;
+  options.gmsh = parse_gmsh_format(arguments.gmsh_format);
+  options.vtu.triangles = arguments.vtu_triangles;
+  options.vtu.compression = static_cast<int>(parse_count_or_none("--vtu-compression", arguments.vtu_compression));
+  if (options.vtu.compression > 9) throw Usage_error("--vtu-compression must be at most 9, not " + arguments.vtu_compression);
+  return options;
+}
+
 /// Everything that can be found out before the work starts.
 void check_outputs(const Mesh_arguments& arguments) {
   for (const std::string& output : arguments.outputs) require_extension("-o", output, mesh_extensions());
-  parse_gmsh_format(arguments.gmsh_format);
+  const int order = parse_order(arguments.order);
+  for (const std::string& output : arguments.outputs) require_extension("--order 2", output, mesh_extensions(order));
+  write_options(arguments);
   std::vector<std::filesystem::path> files;
   for (const std::string& output : arguments.outputs)
     for (auto& file : mesh_files(output)) files.push_back(std::move(file));
@@ -257,11 +205,30 @@ void check_outputs(const Mesh_arguments& arguments) {
   for (const auto& file : files) check_writable(file);
 }
 
+/// By the files as they are, whatever was taken away or repaired. Of an assembly: by all files, whose facets are counted on.
+void find_facets_of_files(Indexed_mesh_3& mesh, const Mesh_arguments& arguments) {
+  Plc all;
+  for (const std::string& file : arguments.inputs) {
+    const Plc part = normalized(read_plc(file));
+    if (all.facets.empty()) all.first_index = part.first_index, all.exponent = part.exponent;
+    const Index first = static_cast<Index>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (Plc_facet<Default_kernel> facet : part.facets) {
+      for (auto& polygon : facet.polygons)
+        for (Index& v : polygon) v += first;
+      all.facets.push_back(std::move(facet));
+    }
+  }
+  try {
+    find_input_facets(mesh, all);
+  } catch (const Input_error& error) {
+    print_message(std::string("warning: triangles are written without the input's facets: ") + error.what());
+  }
+}
+
 int run_mesh(const Mesh_arguments& arguments) {
-  Command_line_sizing sizing(local_sizes(arguments));
-  std::optional<Sizes_near_surface> near_surface;
-  if (!arguments.size_near_surface.empty()) near_surface = parse_sizes_near_surface(arguments.size_near_surface);
   Parameters p = parameters(arguments);
+  arguments.sizing.check();
   arguments.domain.check();
   check_outputs(arguments);
 
@@ -285,8 +252,7 @@ int run_mesh(const Mesh_arguments& arguments) {
       print_or_throw(problems);
     });
   }
-  warn_of_places_outside(sizing.local(), *domain);
-  if (near_surface) sizing = Command_line_sizing(sizing.local(), {sizes_near_surface(*domain, *near_surface)});
+  const Command_line_sizing sizing = arguments.sizing.field(*domain);
   if (p.max_vertices == 0) require_memory(expected_vertices(*domain, sizing, p.ignore_region_sizes), p.max_memory);
   timer.end_phase("validation");
   if (p.time_limit > 0) p.time_limit = std::max(p.time_limit - timer.total_seconds(), 1e-3);
@@ -324,9 +290,11 @@ int run_mesh(const Mesh_arguments& arguments) {
   // A mesh of nothing is of no use to anybody, and what it would replace may be.
   const bool is_usable = !mesh.tetrahedra.empty();
   if (is_usable) {
+    if (arguments.vtu_triangles) find_facets_of_files(mesh, arguments);
+    if (parse_order(arguments.order) == 2) add_midside_nodes(mesh);
     for (const std::string& output : arguments.outputs) {
       progress.show("writing " + output);
-      write_mesh(mesh, output, parse_gmsh_format(arguments.gmsh_format));
+      write_mesh(mesh, output, write_options(arguments));
     }
     if (!arguments.quality.empty()) {
       progress.show("writing " + arguments.quality);

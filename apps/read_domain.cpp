@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/patches.h>
 #include <pgdr/domain/scale.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/io/read_plc.h>
@@ -52,6 +53,16 @@ void Domain_options::add_to(CLI::App& parser) {
                   "x,y,z:id:R; repeatable")
       ->type_name("POINT:ID[:R]")
       ->allow_extra_args(false);
+  parser
+      .add_option("--markers-from", markers_from,
+                  "What in a surface file becomes markers of facets: 'names' (default) of solids (.stl), or groups and materials (.obj); 'colors' of faces (.off, .ply); "
+                  "or 'nothing'")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember({"names", "colors", "nothing"}));
+  parser.add_option("--patch-angle", patch_angle, "Give facets without a marker one for each patch, divided at edges where the surface turns by more than A degrees")
+      ->type_name("A");
+  parser.add_option("--name-marker", marker_names, "Call a marker by a name in what is written, as 3=inlet; repeatable")->type_name("M=NAME")->allow_extra_args(false);
+  parser.add_option("--name-region", region_names, "The same for a region, as 1=water; repeatable")->type_name("ID=NAME")->allow_extra_args(false);
 }
 
 void Domain_options::check() const {
@@ -61,6 +72,9 @@ void Domain_options::check() const {
   if (!largest_hole.empty() && !repair) throw Usage_error("--fill-holes goes with --repair");
   for (const std::string& text : holes) parse_point("--hole", text);
   for (const std::string& text : regions) parse_region(text);
+  if (!patch_angle.empty()) parse_patch_angle(patch_angle);
+  for (const std::string& text : marker_names) parse_name("--name-marker", text);
+  for (const std::string& text : region_names) parse_name("--name-region", text);
 }
 
 double Domain_options::fusing_tolerance() const {
@@ -78,6 +92,23 @@ Length simplification(const std::vector<std::string>& files, const Domain_option
   return std::ranges::all_of(files, is_surface_file) ? default_tolerance : Length{};
 }
 
+Markers_from source_of_markers(const Domain_options& options) {
+  return options.markers_from == "names" ? Markers_from::names : options.markers_from == "colors" ? Markers_from::colors : Markers_from::nothing;
+}
+
+/// Patches, and names that the options give.
+void mark_and_name(Plc& plc, const Domain_options& options) {
+  if (!options.patch_angle.empty()) mark_patches(plc, parse_patch_angle(options.patch_angle));
+  for (const std::string& text : options.marker_names) {
+    auto [marker, name] = parse_name("--name-marker", text);
+    plc.names.markers[marker] = std::move(name);
+  }
+  for (const std::string& text : options.region_names) {
+    auto [id, name] = parse_name("--name-region", text);
+    plc.names.regions[id] = std::move(name);
+  }
+}
+
 /// Of the bounding box of all parts.
 double bounding_diagonal(const std::vector<Plc>& parts) {
   Plc all;
@@ -89,7 +120,7 @@ double bounding_diagonal(const std::vector<Plc>& parts) {
 /// What is in the files, repaired if it shall be, or if there are several.
 Plc repaired_input(const std::vector<std::string>& files, const Domain_options& options, Repair_report& report) {
   std::vector<Plc> parts;
-  for (const std::string& file : files) parts.push_back(normalized(read_plc(file)));
+  for (const std::string& file : files) parts.push_back(normalized(read_plc(file, source_of_markers(options))));
   if (!options.repair && parts.size() == 1) return std::move(parts[0]);
   for (const Plc& part : parts)
     if (part.exponent != parts[0].exponent)
@@ -139,8 +170,8 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
   plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
 
   const double tolerance = simplification(files, options).in_units(bounding_diagonal(plc));
-  if (tolerance <= 0) return input;
-  input.plc = simplify_within(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
+  if (tolerance > 0) input.plc = simplify_within(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
+  mark_and_name(input.plc, options);
   return input;
 }
 

@@ -31,8 +31,11 @@ struct Domain_options {
   std::string nesting;  ///< empty: the file format's own
   std::vector<std::string> holes;    ///< seeds besides those of the file
   std::vector<std::string> regions;  ///< seeds that count before those of the file
+  std::string markers_from = "names";
+  std::string patch_angle;  ///< empty: no patches
+  std::vector<std::string> marker_names, region_names;
 
-  /// Adds `--tolerance`, `--coplanar-tolerance`, `--triangulate`, `--repair`, `--fill-holes`, `--nested`, `--hole` and `--region`; the object must outlive the parsing.
+  /// Adds the options; the object must outlive the parsing.
   void add_to(CLI::App& parser);
 
   /// Refuses nonsense before anything is read. Throws `Usage_error`.

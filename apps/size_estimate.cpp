@@ -114,7 +114,7 @@ double expected_vertices(const Domain& domain, const Command_line_sizing& sizing
   for (const Sizing_box& box : local.boxes()) places.push_back(scaled(box, unit));
   for (const Sizing_ball& ball : local.balls())
     if (ball.extent > 0) places.push_back(scaled(box_around(ball), unit));
-  const bool is_gradual = !sizing.near_surfaces().empty() || local.gradation() < Command_line_sizing::Local::no_gradation;
+  const bool is_gradual = !sizing.near_surfaces().empty() || !sizing.functions().empty() || local.gradation() < Command_line_sizing::Local::no_gradation;
   if (everywhere == infinity && places.empty() && !is_gradual && domain.regions.empty()) return 0;  // nothing asks for a size: the volumes need not be found
   const Volumes_3<Default_kernel> volumes(domain);
   if (volumes.volumes().empty()) return 0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -67,7 +69,8 @@ enum class Encoding { ascii, little_endian, big_endian };
 /// Walks through a PLY file, header and values, the way that CGAL's reader does.
 class Ply_checker {
  public:
-  Ply_checker(std::string_view text, const std::filesystem::path& path) : text_(text), path_(path) {}
+  Ply_checker(std::string_view text, const std::filesystem::path& path, Markers_from markers)
+      : text_(text), path_(path), is_colored_(markers == Markers_from::colors) {}
 
   Checked_surface check() {
     read_header();
@@ -170,6 +173,8 @@ class Ply_checker {
 
   void check_item(const Element& element, std::size_t number) {
     const bool is_face = element.name == "face", is_vertex = element.name == "vertex";
+    std::array<double, 3> rgb{};
+    bool has_color = false;
     const auto owner = [&] { return element.name + " " + std::to_string(number); };
     for (const Property& property : element.properties) {
       if (!property.size_type) {
@@ -178,6 +183,11 @@ class Ply_checker {
             is_vertex && (property.name == "x" || property.name == "y" || property.name == "z");
         if (coordinate && !std::isfinite(value)) {
           fail(Kind::bad_coordinate, "the " + property.name + " coordinate of " + owner() + " is not finite");
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (property.name != colors[k]) continue;
+          rgb[k] = property.type < Type::f32 ? value : 255 * value;
+          has_color = true;
         }
         continue;
       }
@@ -197,7 +207,12 @@ class Ply_checker {
         }
       }
     }
+    if (!is_face || !is_colored_) return;
+    result_.groups.enter(has_color ? color_name(rgb) : std::string());
+    result_.groups.add_facet();
   }
+
+  static constexpr std::string_view colors[3] = {"red", "green", "blue"};
 
   static bool is_corner_list(const Property& p) {
     return p.size_type && (p.name == "vertex_indices" || p.name == "vertex_index");
@@ -280,6 +295,7 @@ class Ply_checker {
 
   std::string_view text_;
   std::filesystem::path path_;
+  bool is_colored_;
   std::size_t next_ = 0;
   Encoding encoding_ = Encoding::ascii;
   std::vector<Element> elements_;
@@ -288,8 +304,8 @@ class Ply_checker {
 
 }  // namespace
 
-Checked_surface check_ply(std::string_view text, const std::filesystem::path& path) {
-  return Ply_checker(text, path).check();
+Checked_surface check_ply(std::string_view text, const std::filesystem::path& path, Markers_from markers) {
+  return Ply_checker(text, path, markers).check();
 }
 
 }  // namespace pgdr::io_detail

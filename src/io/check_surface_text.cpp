@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "line_scanner.h"
 #include "readers.h"
@@ -56,9 +58,25 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+/// What follows the corners of a face: nothing, the number of a colour in a table, or red, green, blue (and alpha), up to 255 or, with a
+/// decimal point, up to 1.
+std::string off_color(Line_scanner& in) {
+  std::vector<std::string_view> words;
+  while (!in.at_end_of_line()) words.push_back(in.word());
+  if (words.size() == 1) return "color_" + std::string(words[0]);
+  if (words.size() < 3) return {};
+  const bool is_share = std::any_of(words.begin(), words.begin() + 3, [](std::string_view w) { return w.find('.') != std::string_view::npos; });
+  std::array<double, 3> rgb{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!parse_real(words[i], rgb[i])) return {};
+    if (is_share) rgb[i] *= 255;
+  }
+  return color_name(rgb);
+}
+
 }  // namespace
 
-Checked_surface check_off(std::string_view text, const std::filesystem::path& path) {
+Checked_surface check_off(std::string_view text, const std::filesystem::path& path, Markers_from markers) {
   Line_scanner in(text, path);
   in.need_line("the keyword OFF");
   const std::string keyword(in.word());
@@ -94,12 +112,15 @@ Checked_surface check_off(std::string_view text, const std::filesystem::path& pa
       plain.number(vertex);
     }
     plain.word("\n");
+    if (markers != Markers_from::colors) continue;
+    result.groups.enter(off_color(in));
+    result.groups.add_facet();
   }
   result.text = std::move(plain.text);
   return result;
 }
 
-Checked_surface check_obj(std::string_view text, const std::filesystem::path& path) {
+Checked_surface check_obj(std::string_view text, const std::filesystem::path& path, Markers_from markers) {
   struct Corner {
     long long vertex;  ///< 1-based, relative ones resolved
     std::size_t line;
@@ -108,6 +129,8 @@ Checked_surface check_obj(std::string_view text, const std::filesystem::path& pa
   Line_scanner in(text, path);
   Checked_surface result;
   Plain_text vertices, facets;
+  const bool named = markers == Markers_from::names;
+  std::string object, group, material;
   Corner highest{0, 0, 0};  // a face may come before its vertices, so this is looked at when all are known
   while (in.next_line()) {
     const std::string_view keyword = in.word();
@@ -136,8 +159,13 @@ Checked_surface check_obj(std::string_view text, const std::filesystem::path& pa
       }
       check_corner_count(in, facet, corners);
       facets.word("\n");
+      if (!named) continue;
+      result.groups.enter({group.empty() ? object : group, material});
+      result.groups.add_facet();
+    } else if (named && (keyword == "o" || keyword == "g" || keyword == "usemtl")) {
+      (keyword == "o" ? object : keyword == "g" ? group : material) = in.rest();
     }
-    // Everything else (normals, groups, materials, lines, ...) is no part of the surface.
+    // Everything else (normals, lines, ...) is no part of the surface.
   }
   if (highest.vertex > static_cast<long long>(result.vertices)) {
     fail_at(path, highest.line, Kind::bad_index,
@@ -186,7 +214,7 @@ Checked_surface check_binary_stl(std::string_view text, const std::filesystem::p
 }
 
 /// One corner or one keyword per line is what writers do, but blanks are all that the format asks for.
-Checked_surface check_ascii_stl(std::string_view text, const std::filesystem::path& path) {
+Checked_surface check_ascii_stl(std::string_view text, const std::filesystem::path& path, Markers_from markers) {
   Line_scanner in(text, path);
   Checked_surface result;
   Plain_text plain;
@@ -200,7 +228,8 @@ Checked_surface check_ascii_stl(std::string_view text, const std::filesystem::pa
       if (word == "solid" || word == "endsolid") {
         if (inside) in.fail(Kind::unreadable, facet.text() + " lacks endfacet");
         closed = word == "endsolid";
-        while (!in.at_end_of_line()) in.word();  // its name, which can be any words
+        std::string name(in.rest());  // any words
+        if (!closed && markers == Markers_from::names) result.groups.enter(std::move(name));
       } else if (word == "facet") {
         if (inside) in.fail(Kind::unreadable, facet.text() + " lacks endfacet");
         inside = true;
@@ -215,6 +244,7 @@ Checked_surface check_ascii_stl(std::string_view text, const std::filesystem::pa
           in.fail(Kind::unreadable, facet.text() + " has fewer than three vertices");
         inside = false;
         ++result.facets;
+        if (markers == Markers_from::names) result.groups.add_facet();
         plain.word("endfacet\n");
       } else if (word == "normal") {
         for (int i = 0; i < 3 && !in.at_end_of_line(); ++i) in.word();  // not used, so not checked
@@ -231,7 +261,7 @@ Checked_surface check_ascii_stl(std::string_view text, const std::filesystem::pa
 
 }  // namespace
 
-Checked_surface check_stl(std::string_view text, const std::filesystem::path& path) {
+Checked_surface check_stl(std::string_view text, const std::filesystem::path& path, Markers_from markers) {
   // Binary files may begin with "solid" as well; their size tells them apart.
   const bool binary_size = text.size() >= stl_header + 4 &&
                            text.size() == stl_header + 4 + stl_triangle * little_endian_32(text, stl_header);
@@ -239,7 +269,7 @@ Checked_surface check_stl(std::string_view text, const std::filesystem::path& pa
   while (start < text.size() && std::isspace(static_cast<unsigned char>(text[start]))) ++start;
   const bool solid = lower(text.substr(start, 5)) == "solid";
   if (text.empty()) fail_at(path, 0, Kind::empty, "the file is empty");
-  return solid && !binary_size ? check_ascii_stl(text, path) : check_binary_stl(text, path);
+  return solid && !binary_size ? check_ascii_stl(text, path, markers) : check_binary_stl(text, path);
 }
 
 }  // namespace pgdr::io_detail

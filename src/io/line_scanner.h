@@ -72,6 +72,14 @@ class Line_scanner {
     return result;
   }
 
+  /// All that is left of the line, without blanks around it.
+  std::string_view rest() {
+    std::string_view result = rest_;
+    rest_ = {};
+    while (!result.empty() && is_blank(result.back())) result.remove_suffix(1);
+    return result;
+  }
+
   double real(const char* what, Label owner = {}) {
     const std::string_view token = word();
     double value = 0;

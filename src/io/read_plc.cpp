@@ -19,17 +19,27 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 }  // namespace io_detail
 
-Plc read_plc(const std::filesystem::path& path) {
+namespace {
+
+Plc read_any(const std::filesystem::path& path, Markers_from markers) {
   using namespace io_detail;
   const std::string extension = lower_extension(path);
   if (extension == ".poly") return read_tetgen(path, Tetgen_format::poly);
   if (extension == ".smesh") return read_tetgen(path, Tetgen_format::smesh);
-  if (extension == ".off") return read_surface(path, Surface_format::off);
-  if (extension == ".stl") return read_surface(path, Surface_format::stl);
-  if (extension == ".ply") return read_surface(path, Surface_format::ply);
-  if (extension == ".obj") return read_surface(path, Surface_format::obj);
+  if (extension == ".off") return read_surface(path, Surface_format::off, markers);
+  if (extension == ".stl") return read_surface(path, Surface_format::stl, markers);
+  if (extension == ".ply") return read_surface(path, Surface_format::ply, markers);
+  if (extension == ".obj") return read_surface(path, Surface_format::obj, markers);
   fail_at(path, 0, Input_problem::Kind::unreadable,
           "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj");
+}
+
+}  // namespace
+
+Plc read_plc(const std::filesystem::path& path, Markers_from markers) {
+  Plc plc = read_any(path, markers);
+  plc.name = path.stem().string();
+  return plc;
 }
 
 bool is_surface_file(const std::filesystem::path& path) {

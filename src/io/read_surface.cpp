@@ -23,18 +23,18 @@ using Kind = Input_problem::Kind;
 using Point_3 = Plc::Point_3;
 using Polygons = std::vector<std::vector<std::size_t>>;
 
-Checked_surface check(std::string_view text, const std::filesystem::path& path, Surface_format format) {
+Checked_surface check(std::string_view text, const std::filesystem::path& path, Surface_format format, Markers_from markers) {
   switch (format) {
     case Surface_format::off:
-      return check_off(text, path);
+      return check_off(text, path, markers);
     case Surface_format::stl:
-      return check_stl(text, path);
+      return check_stl(text, path, markers);
     case Surface_format::ply:
-      return check_ply(text, path);
+      return check_ply(text, path, markers);
     case Surface_format::obj:
       break;
   }
-  return check_obj(text, path);
+  return check_obj(text, path, markers);
 }
 
 bool read_with_cgal(std::istream& in, Surface_format format, std::vector<Point_3>& points,
@@ -55,10 +55,10 @@ bool read_with_cgal(std::istream& in, Surface_format format, std::vector<Point_3
 
 }  // namespace
 
-Plc read_surface(const std::filesystem::path& path, Surface_format format) {
+Plc read_surface(const std::filesystem::path& path, Surface_format format, Markers_from markers) {
   Checked_surface checked = [&] {
     const File_text text(path);
-    return check(text.view(), path, format);
+    return check(text.view(), path, format, markers);
   }();
   if (checked.facets == 0) fail_at(path, 0, Kind::empty, "the surface is empty");
 
@@ -103,6 +103,7 @@ Plc read_surface(const std::filesystem::path& path, Surface_format format) {
     plc.facets[i].polygons.push_back(std::move(loop));
   }
   plc.vertices = std::move(points);
+  checked.groups.mark(plc);
   return plc;
 }
 

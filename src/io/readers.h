@@ -9,6 +9,9 @@
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
+#include <pgdr/io/read_plc.h>
+
+#include "facet_groups.h"
 
 namespace pgdr::io_detail {
 
@@ -19,7 +22,7 @@ enum class Tetgen_format { poly, smesh };
 enum class Surface_format { off, stl, ply, obj };
 
 Plc read_tetgen(const std::filesystem::path& path, Tetgen_format format);
-Plc read_surface(const std::filesystem::path& path, Surface_format format);
+Plc read_surface(const std::filesystem::path& path, Surface_format format, Markers_from markers);
 
 /// What CGAL's reader gets to see, and what it has to find there.
 ///
@@ -29,12 +32,13 @@ struct Checked_surface {
   std::string text;
   std::size_t vertices = 0;  ///< 0 where the format does not count them (`.stl`)
   std::size_t facets = 0;
+  Facet_groups groups;  ///< empty where the format has none, or they were not asked for
 };
 
-Checked_surface check_off(std::string_view text, const std::filesystem::path& path);
-Checked_surface check_obj(std::string_view text, const std::filesystem::path& path);
-Checked_surface check_stl(std::string_view text, const std::filesystem::path& path);
-Checked_surface check_ply(std::string_view text, const std::filesystem::path& path);
+Checked_surface check_off(std::string_view text, const std::filesystem::path& path, Markers_from markers);
+Checked_surface check_obj(std::string_view text, const std::filesystem::path& path, Markers_from markers);
+Checked_surface check_stl(std::string_view text, const std::filesystem::path& path, Markers_from markers);
+Checked_surface check_ply(std::string_view text, const std::filesystem::path& path, Markers_from markers);
 
 }  // namespace pgdr::io_detail
 

@@ -20,14 +20,14 @@ using io_detail::Mesh_group;
 using io_detail::put_char;
 using io_detail::put_number;
 
-/// Gmsh's types of elements, by their dimension.
-constexpr std::int32_t triangle_type = 2, tetrahedron_type = 4;
+/// Gmsh's types of elements, of first and of second order.
+constexpr std::int32_t triangle_types[2] = {2, 9}, tetrahedron_types[2] = {4, 11};
 
 /// The groups of one dimension, with what their elements are.
-template <std::size_t N>
+template <class Nodes>
 struct Elements {
   std::int32_t dimension, type;
-  const std::vector<std::array<std::uint32_t, N>>& vertices;
+  Nodes nodes;
   std::vector<Mesh_group> groups;
   std::size_t first;  ///< number of the first element
 };
@@ -35,8 +35,9 @@ struct Elements {
 class Gmsh_writer {
  public:
   Gmsh_writer(const Indexed_mesh_3& mesh, const std::filesystem::path& path)
-      : mesh_(mesh), out_(path), triangles_{2, triangle_type, mesh.triangles, io_detail::markers_of(mesh), 1},
-        tetrahedra_{3, tetrahedron_type, mesh.tetrahedra, io_detail::regions_of(mesh), 1 + mesh.triangles.size()} {}
+      : mesh_(mesh), out_(path), triangles_{2, triangle_types[!mesh.triangle_nodes.empty()], io_detail::triangles_of(mesh), io_detail::markers_of(mesh, io_detail::quotable), 1},
+        tetrahedra_{3, tetrahedron_types[!mesh.tetrahedron_nodes.empty()], io_detail::tetrahedra_of(mesh, io_detail::edges_in_gmsh),
+                    io_detail::regions_of(mesh, io_detail::quotable), 1 + mesh.triangles.size()} {}
 
   void write(Gmsh_format format) {
     const bool is_binary = format == Gmsh_format::binary_4_1;
@@ -73,13 +74,13 @@ class Gmsh_writer {
   }
 
   /// Lower and upper corner of what a group's elements fill.
-  template <std::size_t N>
-  std::array<double, 6> box(const Elements<N>& e, const Mesh_group& g) const {
+  template <class Nodes>
+  std::array<double, 6> box(const Elements<Nodes>& e, const Mesh_group& g) const {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::array<double, 6> box{far, far, far, -far, -far, -far};
     const double unit = unit_of(mesh_);
     for (const std::uint32_t i : g.elements)
-      for (const std::uint32_t v : e.vertices[i])
+      for (const std::uint32_t v : e.nodes.corners[i])
         for (std::size_t d = 0; d < 3; ++d) {
           box[d] = std::min(box[d], unit * mesh_.points[v][d]);
           box[3 + d] = std::max(box[3 + d], unit * mesh_.points[v][d]);
@@ -87,11 +88,11 @@ class Gmsh_writer {
     return box;
   }
 
-  /// Calls row(number, element) for all elements of a group, formatted on all threads.
-  template <std::size_t N, class Row>
-  void write_group(const Elements<N>& e, const Mesh_group& g, std::size_t first, std::size_t columns, const Row& row) {
+  /// Calls row(text, number, element) for all elements of a group, formatted on all threads.
+  template <class Row>
+  void write_group(const Mesh_group& g, std::size_t first, std::size_t columns, const Row& row) {
     io_detail::write_rows(out_, g.elements.size(), columns, [&](std::size_t from, std::size_t to, char* text) {
-      for (std::size_t i = from; i < to; ++i) text = put_char(row(text, first + i, e.vertices[g.elements[i]]), '\n');
+      for (std::size_t i = from; i < to; ++i) text = put_char(row(text, first + i, g.elements[i]), '\n');
       return text;
     });
   }
@@ -128,7 +129,7 @@ class Gmsh_writer {
       std::size_t first = e.first;
       for (const Mesh_group& g : e.groups) {
         line(std::to_string(e.dimension) + " " + std::to_string(g.tag) + " " + std::to_string(e.type) + " " + std::to_string(g.elements.size()));
-        write_group(e, g, first, 6, [](char* text, std::size_t number, const auto& element) { return io_detail::put_vertices(put_number(text, number), element, 1, ' '); });
+        write_group(g, first, 11, [&e](char* text, std::size_t number, std::size_t i) { return io_detail::put_nodes(put_number(text, number), e.nodes, i, 1, ' '); });
         first += g.elements.size();
       }
     });
@@ -149,10 +150,10 @@ class Gmsh_writer {
       std::size_t first = e.first;
       for (const Mesh_group& g : e.groups) {
         // Two tags: the physical group, and the entity.
-        write_group(e, g, first, 10, [&](char* text, std::size_t number, const auto& element) {
+        write_group(g, first, 15, [&](char* text, std::size_t number, std::size_t i) {
           text = put_number(put_char(put_number(text, number), ' '), e.type);
           text = put_number(put_char(put_number(put_char(text, ' '), 2), ' '), g.tag);
-          return io_detail::put_vertices(put_number(put_char(text, ' '), g.tag), element, 1, ' ');
+          return io_detail::put_nodes(put_number(put_char(text, ' '), g.tag), e.nodes, i, 1, ' ');
         });
         first += g.elements.size();
       }
@@ -200,7 +201,7 @@ class Gmsh_writer {
         put(std::uint64_t{g.elements.size()});
         for (const std::uint32_t i : g.elements) {
           put(number++);
-          for (const std::uint32_t v : e.vertices[i]) put(std::uint64_t{v} + 1);
+          for (std::size_t k = 0; k < e.nodes.nodes_of_each(); ++k) put(std::uint64_t{e.nodes.node(i, k)} + 1);
         }
       }
     });
@@ -212,8 +213,8 @@ class Gmsh_writer {
 
   const Indexed_mesh_3& mesh_;
   Atomic_file out_;
-  Elements<3> triangles_;
-  Elements<4> tetrahedra_;
+  Elements<io_detail::Triangle_nodes> triangles_;
+  Elements<io_detail::Tetrahedron_nodes> tetrahedra_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <memory>
 #include <new>
 #include <string>
@@ -21,16 +22,18 @@
 #include <pgdr/parallel/parallel_in_order.h>
 #include <pgdr/quality/measures.h>
 
+#include "mesh_groups.h"
+
 namespace pgdr {
 namespace {
 
 constexpr std::size_t block_bytes = std::size_t(1) << 16;
 
-/// One zlib stream, used anew for each block; speed counts for more than the last percent of size.
+/// One zlib stream, used anew for each block.
 class Compressor {
  public:
-  Compressor() : input_(block_bytes) {
-    if (deflateInit(&stream_, 1) != Z_OK) throw std::bad_alloc();
+  explicit Compressor(int level) : input_(block_bytes) {
+    if (deflateInit(&stream_, level) != Z_OK) throw std::bad_alloc();
     output_.resize(deflateBound(&stream_, block_bytes));
   }
   ~Compressor() { deflateEnd(&stream_); }
@@ -68,18 +71,21 @@ struct Data_array {
   std::uint64_t offset_position = 0;  ///< where in the file the value of its `offset` attribute stands
 };
 
+/// The tetrahedra, then the triangles if they are wanted: all cells of the grid.
 class Vtu_writer {
  public:
-  Vtu_writer(const Indexed_mesh_3& mesh, Atomic_file& out) : mesh_(mesh), out_(out) {
-    const std::size_t largest = std::max(mesh.points.size(), 4 * mesh.tetrahedra.size());
+  Vtu_writer(const Indexed_mesh_3& mesh, const Vtu_options& options, Atomic_file& out)
+      : mesh_(mesh), options_(options), out_(out), tetrahedra_(io_detail::tetrahedra_of(mesh, io_detail::edges_in_vtk)), triangles_(io_detail::triangles_of(mesh)) {
+    corners_ = tetrahedra_.size() * tetrahedra_.nodes_of_each();
+    cells_ = tetrahedra_.size();
+    if (options.triangles) cells_ += triangles_.size();
+    const std::size_t largest = std::max(mesh.points.size(), offset(cells_));
     wide_ = largest > std::size_t(std::numeric_limits<std::int32_t>::max());
   }
 
   void write() {
     const char* const index_type = wide_ ? "Int64" : "Int32";
     Data_array in_dimension{"UInt8", "in_dimension", 1}, reference{"Int32", "reference", 1};
-    Data_array region{"Int32", "region", 1}, ratio{"Float32", "radius_edge_ratio", 1};
-    Data_array angle{"Float32", "min_dihedral_angle", 1}, exempt{"UInt8", "exempt", 1}, unrefined{"UInt8", "unrefined", 1};
     Data_array points{"Float64", "Points", 3};
     Data_array connectivity{index_type, "connectivity", 1}, offsets{index_type, "offsets", 1},
         types{"UInt8", "types", 1};
@@ -88,12 +94,16 @@ class Vtu_writer {
     out_.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
     out_.write(std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
     out_.write("\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n");
+    write_names();
     out_.write("<Piece NumberOfPoints=\"" + std::to_string(mesh_.points.size()) + "\" NumberOfCells=\"" +
-               std::to_string(mesh_.tetrahedra.size()) + "\">\n<PointData>\n");
+               std::to_string(cells_) + "\">\n<PointData>\n");
     if (dimensions) declare(in_dimension);
     declare(reference);
     out_.write("</PointData>\n<CellData>\n");
-    for (Data_array* array : {&region, &ratio, &angle, &exempt, &unrefined}) declare(*array);
+    for (Data_array* array : {&region_, &ratio_, &angle_, &exempt_, &unrefined_}) declare(*array);
+    if (options_.triangles)
+      for (Data_array* array : {&marker_, &attribute_}) declare(*array);
+    if (has_input_facets()) declare(input_facet_);
     out_.write("</CellData>\n<Points>\n");
     declare(points);
     out_.write("</Points>\n<Cells>\n");
@@ -105,8 +115,8 @@ class Vtu_writer {
       append<std::uint8_t>(in_dimension, mesh_.points.size(),
                            [&](std::size_t i) { return mesh_.point_dimensions[i]; });
     append<std::int32_t>(reference, mesh_.points.size(),
-                         [&](std::size_t i) { return at(mesh_.point_references, i); });
-    append_cell_data(region, ratio, angle, exempt, unrefined);
+                         [&](std::size_t i) { return io_detail::reference_of(mesh_.point_references, i); });
+    append_cell_data();
     append<Indexed_mesh_3::Point>(points, mesh_.points.size(),
                                   [&, unit = unit_of(mesh_)](std::size_t i) {
                                     const auto& [x, y, z] = mesh_.points[i];
@@ -116,14 +126,42 @@ class Vtu_writer {
       append_cells<std::int64_t>(connectivity, offsets);
     else
       append_cells<std::int32_t>(connectivity, offsets);
-    constexpr std::uint8_t vtk_tetra = 10;
-    append<std::uint8_t>(types, mesh_.tetrahedra.size(), [](std::size_t) { return vtk_tetra; });
+    append_by_kind<std::uint8_t>(
+        types, [type = tetrahedron_type()](std::size_t) { return type; }, [type = triangle_type()](std::size_t) { return type; });
     out_.write("\n</AppendedData>\n</VTKFile>\n");
   }
 
  private:
-  static std::int32_t at(const std::vector<std::int32_t>& references, std::size_t i) {
-    return i < references.size() ? references[i] : 0;
+  // VTK's types of cells, of first and of second order.
+  std::uint8_t tetrahedron_type() const { return mesh_.tetrahedron_nodes.empty() ? 10 : 24; }
+  std::uint8_t triangle_type() const { return mesh_.triangle_nodes.empty() ? 5 : 22; }
+
+  bool has_input_facets() const { return options_.triangles && !mesh_.triangle_input_facets.empty(); }
+
+  /// The first `n` cells have so many nodes.
+  std::size_t offset(std::size_t n) const {
+    const std::size_t t = std::min(n, tetrahedra_.size());
+    return t * tetrahedra_.nodes_of_each() + (n - t) * triangles_.nodes_of_each();
+  }
+
+  /// What numbers are called, as field data in the manner of meshio: an array with the name, its values the number and the dimension.
+  void write_names() {
+    const auto write_kind = [&](const std::map<int, std::string>& names, int dimension) {
+      for (const auto& [number, name] : names)
+        out_.write("<DataArray type=\"Int64\" Name=\"" + in_attribute(name) + "\" NumberOfTuples=\"2\" format=\"ascii\">\n" + std::to_string(number) + " " +
+                   std::to_string(dimension) + "\n</DataArray>\n");
+    };
+    if (mesh_.names.regions.empty() && mesh_.names.markers.empty()) return;
+    out_.write("<FieldData>\n");
+    write_kind(mesh_.names.markers, 2);
+    write_kind(mesh_.names.regions, 3);
+    out_.write("</FieldData>\n");
+  }
+
+  static std::string in_attribute(const std::string& name) {
+    std::string text;
+    for (const char c : io_detail::quotable(name)) text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+    return text;
   }
 
   void declare(Data_array& array) {
@@ -134,37 +172,45 @@ class Vtu_writer {
     out_.write(std::string(offset_length, ' ') + "/>\n");
   }
 
-  void append_cell_data(const Data_array& region, const Data_array& ratio, const Data_array& angle,
-                        const Data_array& exempt, const Data_array& unrefined) {
-    const std::size_t count = mesh_.tetrahedra.size();
-    const auto measure = [&](std::size_t i, auto function) {
-      const auto& t = mesh_.tetrahedra[i];
-      return static_cast<float>(
-          function(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]], mesh_.points[t[3]]));
+  void append_cell_data() {
+    const auto measured = [&](auto function) {
+      return [&, function](std::size_t i) {
+        const auto& t = mesh_.tetrahedra[i];
+        return static_cast<float>(function(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]], mesh_.points[t[3]]));
+      };
     };
-    append<std::int32_t>(region, count, [&](std::size_t i) { return at(mesh_.tetrahedron_references, i); });
-    append<float>(ratio, count, [&](std::size_t i) {
-      return measure(i, [](const auto&... p) { return radius_edge_ratio(p...); });
-    });
-    append<float>(angle, count, [&](std::size_t i) {
-      return measure(i, [](const auto&... p) { return smallest_dihedral_angle_deg(p...); });
-    });
-    const auto append_marks = [&](const Data_array& array, const std::vector<std::uint32_t>& marked) {
-      append<std::uint8_t>(array, count, [&](std::size_t i) { return std::uint8_t(std::ranges::binary_search(marked, i)); });
-    };
-    append_marks(exempt, mesh_.exempt);
-    append_marks(unrefined, mesh_.unrefined);
+    const auto region = [&](std::size_t i) { return io_detail::reference_of(mesh_.tetrahedron_references, i); };
+    const auto marker = [&](std::size_t i) { return io_detail::reference_of(mesh_.triangle_references, i); };
+    const auto marked = [](const std::vector<std::uint32_t>& list) { return [&list](std::size_t i) { return std::uint8_t(std::ranges::binary_search(list, i)); }; };
+    const auto nothing = [](std::size_t) { return 0; };
+    append_by_kind<std::int32_t>(region_, region, nothing);
+    append_by_kind<float>(ratio_, measured([](const auto&... p) { return radius_edge_ratio(p...); }), nothing);
+    append_by_kind<float>(angle_, measured([](const auto&... p) { return smallest_dihedral_angle_deg(p...); }), nothing);
+    append_by_kind<std::uint8_t>(exempt_, marked(mesh_.exempt), nothing);
+    append_by_kind<std::uint8_t>(unrefined_, marked(mesh_.unrefined), nothing);
+    if (!options_.triangles) return;
+    append_by_kind<std::int32_t>(marker_, nothing, marker);
+    const std::vector<std::int32_t> regions = io_detail::tags_of(mesh_.tetrahedra.size(), mesh_.tetrahedron_references);
+    const std::vector<std::int32_t> markers = io_detail::tags_of(mesh_.triangles.size(), mesh_.triangle_references);
+    append_by_kind<std::int32_t>(attribute_, [&](std::size_t i) { return regions[i]; }, [&](std::size_t i) { return markers[i]; });
+    if (!has_input_facets()) return;
+    append_by_kind<std::int64_t>(input_facet_, [](std::size_t) { return -1; }, [&](std::size_t i) { return mesh_.triangle_input_facets[i]; });
   }
 
   template <class Integer>
   void append_cells(const Data_array& connectivity, const Data_array& offsets) {
-    const std::size_t count = mesh_.tetrahedra.size();
-    append<std::array<Integer, 4>>(connectivity, count, [&](std::size_t i) {
-      const auto& t = mesh_.tetrahedra[i];
-      return std::array<Integer, 4>{static_cast<Integer>(t[0]), static_cast<Integer>(t[1]),
-                                    static_cast<Integer>(t[2]), static_cast<Integer>(t[3])};
+    append<Integer>(connectivity, offset(cells_), [&](std::size_t i) {
+      const auto node_at = [](const auto& elements, std::size_t k) { return static_cast<Integer>(elements.node(k / elements.nodes_of_each(), k % elements.nodes_of_each())); };
+      return i < corners_ ? node_at(tetrahedra_, i) : node_at(triangles_, i - corners_);
     });
-    append<Integer>(offsets, count, [](std::size_t i) { return static_cast<Integer>(4 * (i + 1)); });
+    append<Integer>(offsets, cells_, [this](std::size_t i) { return static_cast<Integer>(offset(i + 1)); });
+  }
+
+  /// A row for each cell, by what it is.
+  template <class Row, class Tetrahedron, class Triangle>
+  void append_by_kind(const Data_array& array, const Tetrahedron& tetrahedron, const Triangle& triangle) {
+    const std::size_t n = tetrahedra_.size();
+    append<Row>(array, cells_, [&](std::size_t i) { return static_cast<Row>(i < n ? tetrahedron(i) : triangle(i - n)); });
   }
 
   /// Appends the rows `row(0)`, ..., `row(count - 1)` block by block, behind the sizes of the blocks. The blocks are
@@ -183,7 +229,7 @@ class Vtu_writer {
     parallel_in_order<std::unique_ptr<Compressor>>(
         blocks,
         [&](std::size_t b, std::unique_ptr<Compressor>& block) {
-          if (!block) block = std::make_unique<Compressor>();
+          if (!block) block = std::make_unique<Compressor>(options_.compression);
           const std::size_t first = b * rows_per_block, last = std::min(first + rows_per_block, count);
           for (std::size_t i = first; i < last; ++i) {
             const Row value = row(i);
@@ -206,16 +252,24 @@ class Vtu_writer {
   static constexpr std::size_t offset_length = 22;  ///< 64 bits in decimal, and quotes
 
   const Indexed_mesh_3& mesh_;
+  const Vtu_options& options_;
   Atomic_file& out_;
+  io_detail::Tetrahedron_nodes tetrahedra_;
+  io_detail::Triangle_nodes triangles_;
+  std::size_t corners_ = 0;  ///< nodes of all tetrahedra
+  std::size_t cells_ = 0;
+  Data_array region_{"Int32", "region", 1}, ratio_{"Float32", "radius_edge_ratio", 1}, angle_{"Float32", "min_dihedral_angle", 1};
+  Data_array exempt_{"UInt8", "exempt", 1}, unrefined_{"UInt8", "unrefined", 1};
+  Data_array marker_{"Int32", "marker", 1}, attribute_{"Int32", "attribute", 1}, input_facet_{"Int64", "input_facet", 1};
   std::uint64_t data_begin_ = 0;
   bool wide_ = false;
 };
 
 }  // namespace
 
-void write_vtu(const Indexed_mesh_3& mesh, const std::filesystem::path& path) {
+void write_vtu(const Indexed_mesh_3& mesh, const std::filesystem::path& path, const Vtu_options& options) {
   Atomic_file out(path);
-  Vtu_writer(mesh, out).write();
+  Vtu_writer(mesh, options, out).write();
   out.commit();
 }
 

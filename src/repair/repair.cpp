@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <pgdr/domain/scale.h>
 
@@ -65,6 +69,33 @@ Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_r
   return plc;
 }
 
+/// Gives facets without a marker that of their part, and those whose marker stands for a name of their part's, numbers that nobody else has.
+/// Returns what all are called.
+Reference_names mark_parts(std::vector<Plc>& parts) {
+  std::set<int> taken;
+  for (const Plc& part : parts)
+    for (const auto& facet : part.facets)
+      if (!part.names.markers.contains(facet.marker)) taken.insert(facet.marker);
+  int last = static_cast<int>(parts.size());
+  Reference_names names;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    Plc& part = parts[p];
+    const int own = static_cast<int>(p) + 1;
+    if (!part.name.empty()) names.markers[own] = names.regions[own] = part.name;
+    std::map<int, int> marker{{0, own}};
+    for (const auto& [named, name] : part.names.markers)
+      if (named != 0) {
+        do ++last;
+        while (taken.contains(last));
+        marker[named] = last;
+        names.markers[last] = part.name.empty() ? name : part.name + ":" + name;
+      }
+    for (auto& facet : part.facets)
+      if (const auto found = marker.find(facet.marker); found != marker.end()) facet.marker = found->second;
+  }
+  return names;
+}
+
 }  // namespace
 
 Plc repair(const Plc& plc, const Repair_options& options, Repair_report* report) {
@@ -77,6 +108,8 @@ Plc repair(const Plc& plc, const Repair_options& options, Repair_report* report)
   result.nesting = plc.nesting;
   result.holes = plc.holes;
   result.regions = plc.regions;
+  result.name = plc.name;
+  result.names = plc.names;
   return result;
 }
 
@@ -86,10 +119,10 @@ Plc assemble(std::span<const Plc> parts, const Repair_options& options, Repair_r
   done = {};
   if (parts.empty()) throw Input_error(Input_problem::Kind::empty, "an assembly of no parts");
   std::vector<Plc> marked(parts.begin(), parts.end());
-  for (std::size_t part = 0; part < marked.size(); ++part)
-    for (auto& facet : marked[part].facets)
-      if (facet.marker == 0) facet.marker = static_cast<int>(part) + 1;
-  return repaired(marked, options, done);
+  const Reference_names names = mark_parts(marked);
+  Plc result = repaired(marked, options, done);
+  result.names = names;
+  return result;
 }
 
 }  // namespace pgdr

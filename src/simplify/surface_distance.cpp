@@ -10,7 +10,8 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <pgdr/domain/detail/aabb_triangle_tree.h>
-#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/facet_triangles.h>
+#include <pgdr/domain/input_error.h>
 #include <pgdr/parallel/parallel_reduce.h>
 
 namespace pgdr {
@@ -29,20 +30,8 @@ Point point(const Plc& plc, Index v) {
 
 std::optional<Triangles> triangles_of(const Plc& plc) {
   Triangles triangles;
-  const auto add = [&](Index a, Index b, Index c) { triangles.emplace_back(point(plc, a), point(plc, b), point(plc, c)); };
-  Plc polygons;  // the facets that have to be cut into triangles; markers keep them from being fused
-  for (const auto& f : plc.facets)
-    if (f.polygons.size() == 1 && f.polygons[0].size() == 3)
-      add(f.polygons[0][0], f.polygons[0][1], f.polygons[0][2]);
-    else
-      polygons.facets.push_back({f.polygons, f.holes, static_cast<int>(polygons.facets.size())});
-  if (polygons.facets.empty()) return triangles;
-  polygons.vertices = plc.vertices;
   try {
-    const auto domain = make_domain_3(polygons, 1e-6, true);
-    const auto input = [&](Index v) { return domain.input_vertex[v]; };
-    for (const auto& facet : domain.facets)
-      for (const auto& t : facet.triangles) add(input(t[0]), input(t[1]), input(t[2]));
+    for (const auto& [c, facet] : facet_triangles(plc)) triangles.emplace_back(point(plc, c[0]), point(plc, c[1]), point(plc, c[2]));
   } catch (const Input_error&) {
     return std::nullopt;
   }

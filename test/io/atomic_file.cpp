@@ -166,7 +166,7 @@ TEST_CASE("check_writable: finds out before the work starts") {
 TEST_CASE("write_mesh: goes by the extension") {
   CHECK(pgdr::is_known_mesh_extension("a/b.mesh"));
   CHECK(pgdr::is_known_mesh_extension("b.VTU"));
-  CHECK_FALSE(pgdr::is_known_mesh_extension("b.vtk"));
+  CHECK_FALSE(pgdr::is_known_mesh_extension("b.stl"));
   CHECK_FALSE(pgdr::is_known_mesh_extension("mesh"));
-  CHECK_THROWS_AS(pgdr::write_mesh({}, "b.vtk"), std::invalid_argument);
+  CHECK_THROWS_AS(pgdr::write_mesh({}, "b.stl"), std::invalid_argument);
 }

@@ -54,7 +54,7 @@ TEST_CASE("meshes with groups read into meshio, in all formats that have some") 
   for (const auto& [r, n] : count(mesh.triangle_references)) with_triangles += " --group marker_" + std::to_string(r) + ":triangle:" + std::to_string(n);
   int code = 0;
   for (const auto format : {pgdr::Gmsh_format::binary_4_1, pgdr::Gmsh_format::ascii_4_1, pgdr::Gmsh_format::ascii_2_2}) {
-    pgdr::write_mesh(mesh, folder / "a.msh", format);
+    pgdr::write_mesh(mesh, folder / "a.msh", {format, {}});
     code = read_back(folder / "a.msh", mesh, with_triangles);
     if (code == 77) PGDR_SKIP("python3-meshio is not installed");
     CHECK(code == 0);
@@ -66,6 +66,30 @@ TEST_CASE("meshes with groups read into meshio, in all formats that have some") 
   CHECK(read_back(folder / "a.ele", mesh, groups) == 0);
   pgdr::write_mesh(mesh, folder / "a.su2");
   CHECK(read_back(folder / "a.su2", mesh, "") == 0);
+}
+
+TEST_CASE("groups have the names that regions and markers have, as far as a format allows") {
+  const pgdr_test::Temporary_folder folder;
+  auto mesh = mesh_with_references();
+  mesh.names.regions = {{0, "steel"}, {1, "steel"}, {5, "of nothing"}};
+  mesh.names.markers = {{7, "the \"inlet\""}};
+  const auto tetrahedra = count(mesh.tetrahedron_references);
+  const auto triangles = count(mesh.triangle_references);
+  const auto group = [](const std::string& name, const char* type, std::size_t n) { return " --group '" + name + ":" + type + ":" + std::to_string(n) + "'"; };
+  const std::string regions = group("region_-1", "tetra", tetrahedra.at(-1)) + group("steel", "tetra", tetrahedra.at(0)) + group("steel_1", "tetra", tetrahedra.at(1));
+  pgdr::write_mesh(mesh, folder / "a.msh");
+  const int code = read_back(folder / "a.msh", mesh, regions + group("the _inlet_", "triangle", triangles.at(7)));
+  if (code == 77) PGDR_SKIP("python3-meshio is not installed");
+  CHECK(code == 0);
+  pgdr::write_mesh(mesh, folder / "a.inp");
+  CHECK(read_back(folder / "a.inp", mesh, regions + group("the__inlet_", "triangle", triangles.at(7))) == 0);
+  pgdr::write_mesh(mesh, folder / "a.su2");
+  CHECK(text_of(folder / "a.su2").find("MARKER_TAG= the__inlet_\n") != std::string::npos);
+  pgdr::Write_options options;
+  options.vtu = {true, 9};
+  mesh.triangle_input_facets.clear();
+  pgdr::write_mesh(mesh, folder / "a.vtu", options);
+  CHECK(read_back(folder / "a.vtu", mesh, " --triangles " + std::to_string(mesh.triangles.size()) + group("the _inlet_", "triangle", triangles.at(7))) == 0);
 }
 
 TEST_CASE("an SU2 file has a marker for each marker") {

@@ -247,6 +247,22 @@ TEST_CASE("where parts overlap the later one has it: a bolt in a plate") {
   }
 }
 
+TEST_CASE("the regions and markers of an assembly are called as its parts are") {
+  std::vector<Plc> parts{as_surface(box({0, 0, 0}, {1, 1, 1})), as_surface(box({1, 0, 0}, {2, 1, 1}))};
+  parts[0].name = "bolt";
+  parts[1].name = "plate";
+  // The file of the second part has names of its own for some facets, and the first one numbers that mean something to its user.
+  parts[0].facets[0].marker = 3;
+  parts[1].facets[0].marker = 1;
+  parts[1].names.markers = {{1, "front"}};
+  const Plc plc = assemble(parts, {tolerance, 0});
+  CHECK(plc.names.regions == std::map<int, std::string>{{1, "bolt"}, {2, "plate"}});
+  CHECK(plc.names.markers == std::map<int, std::string>{{1, "bolt"}, {2, "plate"}, {4, "plate:front"}});
+  std::set<int> markers;
+  for (const auto& facet : plc.facets) markers.insert(facet.marker);
+  CHECK(markers == std::set<int>{1, 2, 3, 4});
+}
+
 TEST_CASE("repaired surfaces keep markers and seeds") {
   Plc plc = box();
   add_box(plc, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}, 5);

@@ -56,6 +56,7 @@ struct Domain_3 {
   std::size_t duplicate_vertices = 0;  ///< merged
   int exponent = 0;               ///< all lengths above are in units of 2^exponent of the user's
   std::size_t first_index = 0;    ///< see `Piecewise_linear_complex_3`
+  Reference_names names;          ///< of markers and regions
 };
 
 }  // namespace pgdr

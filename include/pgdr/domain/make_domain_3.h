@@ -185,6 +185,7 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
   domain.regions = plc.regions;
   domain.exponent = plc.exponent;
   domain.first_index = plc.first_index;
+  domain.names = plc.names;
 
   // Vertices.
   const std::vector<Index> first = first_equal_vertex(input_points, unusable);

@@ -4,7 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
+
+#include <pgdr/domain/reference_names.h>
 
 namespace pgdr {
 
@@ -64,6 +67,9 @@ struct Piecewise_linear_complex_3 {
 
   // Where things stood in the file, for messages only; empty for a PLC made in memory.
   std::size_t first_index = 0;  ///< the number that the file gives its first vertex and its first facet (0 or 1)
+
+  std::string name;       ///< of the whole; the file's, without its folder and extension
+  Reference_names names;  ///< of markers and regions
 };
 
 }  // namespace pgdr

@@ -121,6 +121,7 @@ Piecewise_linear_complex_3<K> plc_from_domain_3(const Domain_3<K>& domain) {
   plc.regions = domain.regions;
   plc.exponent = domain.exponent;
   plc.first_index = domain.first_index;
+  plc.names = domain.names;
   std::vector<Vec_3> points;
   for (const auto& p : domain.vertices) points.push_back(to_vec(p));
 

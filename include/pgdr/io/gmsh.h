@@ -17,8 +17,8 @@ enum class Gmsh_format {
 
 /// Writes tetrahedra, and triangles on facets, as Gmsh's `.msh` (Gmsh manual, sections "MSH file format" and "MSH file format version 2").
 ///
-/// Each region is a volume and a physical group "region_ID", each marker a surface and a physical group "marker_M". Tags are the ids and markers where these are positive, else
-/// the smallest positive numbers that are not taken. Nodes and elements are numbered from 1, elements by triangles, then tetrahedra; nodes keep their order, within a group so do elements.
+/// Each region is a volume and a physical group with its name, or "region_ID", each marker a surface and a physical group with its name, or "marker_M". Tags are the ids and markers where these are positive, else
+/// the smallest positive numbers that are not taken. Elements are of second order if the mesh is. Nodes and elements are numbered from 1, elements by triangles, then tetrahedra; nodes keep their order, within a group so do elements.
 /// Throws `Output_error`; the file appears complete or not at all.
 void write_gmsh(const Indexed_mesh_3& mesh, const std::filesystem::path& path, Gmsh_format format = Gmsh_format::binary_4_1);
 

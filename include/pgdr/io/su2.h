@@ -8,7 +8,7 @@
 
 namespace pgdr {
 
-/// Writes tetrahedra and boundary markers "marker_M" in the native format of the flow solver SU2. Regions have no place in it; triangles between or inside regions are
+/// Writes tetrahedra and boundary markers, by their names or "marker_M", in the native format of the flow solver SU2. Regions have no place in it; triangles between or inside regions are
 /// markers like all others.
 /// Throws `Output_error`; the file appears complete or not at all.
 void write_su2(const Indexed_mesh_3& mesh, const std::filesystem::path& path);

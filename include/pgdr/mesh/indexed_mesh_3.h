@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <pgdr/domain/reference_names.h>
+
 namespace pgdr {
 
 /// A finished tetrahedral mesh as plain arrays in canonical order: what files hold and what the checker reads.
@@ -24,6 +26,7 @@ struct Indexed_mesh_3 {
 
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< subfacets, internal ones included, each once
   std::vector<std::int32_t> triangle_references;        ///< the input facet's marker
+  std::vector<std::uint32_t> triangle_input_facets;     ///< the facet of the file that the centroid lies on, as the file counts; may be empty
 
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
   std::vector<std::int32_t> tetrahedron_references;  ///< region id
@@ -31,6 +34,14 @@ struct Indexed_mesh_3 {
   std::vector<std::uint32_t> exempt;
   /// and of those over a bound, of ratio or size, that a limit or a cancelled run left.
   std::vector<std::uint32_t> unrefined;
+
+  Reference_names names;  ///< of `triangle_references` and `tetrahedron_references`
+
+  /// Nodes in the middle of edges, positions in `points`; empty in a mesh of first order (see `add_midside_nodes`). Of a tetrahedron those of
+  /// its edges 01, 12, 20, 03, 13, 23; of a triangle 01, 12, 20.
+  std::vector<std::array<std::uint32_t, 6>> tetrahedron_nodes;
+  std::vector<std::array<std::uint32_t, 3>> triangle_nodes;
+  std::vector<std::uint32_t> edge_nodes;
 };
 
 }  // namespace pgdr

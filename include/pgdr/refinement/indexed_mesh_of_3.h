@@ -57,6 +57,7 @@ class Indexed_mesh_builder_3 {
       throw std::length_error("the mesh has more than " + std::to_string(most_) + " tetrahedra: they cannot be numbered");
     for (std::size_t k = 0; k < 3; ++k) lower_[k] = domain.lower[k], upper_[k] = domain.upper[k];
     exponent_ = domain.exponent;
+    names_ = domain.names;
     squared_bound_ = mesh.radius_edge_ratio() * mesh.radius_edge_ratio();
     for (const Subdomain& s : mesh.subdomains()) ids_.push_back(s.id);
     gather_vertices(mesh);
@@ -68,6 +69,7 @@ class Indexed_mesh_builder_3 {
   Indexed_mesh_3 finish() {
     Indexed_mesh_3 out;
     out.exponent = exponent_;
+    out.names = std::move(names_);
     const std::vector<std::uint32_t> number = number_vertices(out);
     Tetrahedron_sorter(std::move(*pool_), number, out.points.size())
         .sort(ids_, out.tetrahedra, out.tetrahedron_references);
@@ -291,6 +293,7 @@ class Indexed_mesh_builder_3 {
   // Of the domain and the parameters.
   std::array<double, 3> lower_{}, upper_{};
   int exponent_ = 0;
+  Reference_names names_;
   double squared_bound_ = 0;
   std::vector<std::int32_t> ids_;  ///< region ids by subdomain
   // By vertex, in the order in which they were found.

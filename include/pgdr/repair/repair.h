@@ -50,7 +50,8 @@ struct Repair_report {
 Plc repair(const Plc& plc, const Repair_options& options, Repair_report* report = nullptr);
 
 /// The same with several parts of an assembly, each of which becomes a region: they share triangles where they touch. Where parts overlap, the
-/// later one owns the overlap. Facets get the position of their part, from 1, as their marker, where they have none, regions as their id.
+/// later one owns the overlap. Facets get the position of their part, from 1, as their marker, where they have none, regions as their id; both
+/// are called as the part is. Markers that have names, as those of surface files, may get other numbers.
 Plc assemble(std::span<const Plc> parts, const Repair_options& options, Repair_report* report = nullptr);
 
 }  // namespace pgdr

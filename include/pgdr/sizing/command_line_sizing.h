@@ -3,8 +3,13 @@
 #define PGDR_SIZING_COMMAND_LINE_SIZING_H
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
+
+#include <CGAL/number_utils.h>
 
 #include <pgdr/sizing/distance_sizing_field.h>
 #include <pgdr/sizing/local_sizing_field.h>
@@ -12,38 +17,44 @@
 namespace pgdr {
 
 /// The sizing field that the options of `pgdr mesh` describe, and the one that the library is compiled for: a bound everywhere, finer ones in
-/// places, and by the distance from surfaces. The smallest one wins.
+/// places, by the distance from surfaces, and by any functions. The smallest one wins; a value that is negative or no number does, too, so that it
+/// is found.
 class Command_line_sizing {
  public:
   using Local = Local_sizing_field<Uniform_sizing_field>;
+  /// From coordinates in the user's unit; called from several threads at once. `SizingField` says what it may return.
+  using Function = std::function<double(const std::array<double, 3>&)>;
 
   Command_line_sizing() = default;
   explicit Command_line_sizing(Uniform_sizing_field everywhere, std::vector<Sizing_box> boxes = {}) : local_(everywhere, std::move(boxes)) {}
-  explicit Command_line_sizing(Local local, std::vector<Distance_sizing_field> near_surfaces = {})
-      : local_(std::move(local)), near_surfaces_(std::move(near_surfaces)) {}
+  explicit Command_line_sizing(Local local, std::vector<Distance_sizing_field> near_surfaces = {}, std::vector<Function> functions = {})
+      : local_(std::move(local)), near_surfaces_(std::move(near_surfaces)), functions_(std::move(functions)) {}
 
   template <class Point_3>
   double operator()(const Point_3& p) const {
     const double bound = local_(p);
-    return near_surfaces_.empty() ? bound : exact_size(p, bound);
+    return is_local() ? bound : exact_size(p, bound);
   }
 
   /// As `LimitedSizingField` says.
   template <class Point_3, class Limit>
   double size_if_below(const Point_3& p, const Limit& limit) const {
     const double bound = local_(p);
-    return near_surfaces_.empty() ? bound : size_below(p, bound, limit);
+    return is_local() ? bound : size_below(p, bound, limit);
   }
 
   const Local& local() const { return local_; }
   const std::vector<Distance_sizing_field>& near_surfaces() const { return near_surfaces_; }
+  const std::vector<Function>& functions() const { return functions_; }
 
  private:
+  bool is_local() const { return near_surfaces_.empty() && functions_.empty(); }
+
   // Not inlined, so that what most meshes ask is: the engine asks for every tetrahedron.
   template <class Point_3>
   [[gnu::noinline]] double exact_size(const Point_3& p, double bound) const {
     for (const Distance_sizing_field& f : near_surfaces_) bound = std::min(bound, f(p));
-    return bound;
+    return smallest(p, bound);
   }
 
   template <class Point_3, class Limit>
@@ -52,11 +63,23 @@ class Command_line_sizing {
       if (bound < limit()) break;
       bound = std::min(bound, f.size_if_below(p, limit));
     }
+    return smallest(p, bound);
+  }
+
+  /// Of `bound` and the functions, all of which are called: what one returns may be wrong.
+  template <class Point_3>
+  double smallest(const Point_3& p, double bound) const {
+    for (const Function& f : functions_) {
+      const double size = f({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+      if (std::isnan(size)) return size;
+      bound = std::min(bound, size);
+    }
     return bound;
   }
 
   Local local_;
   std::vector<Distance_sizing_field> near_surfaces_;
+  std::vector<Function> functions_;
 };
 
 }  // namespace pgdr

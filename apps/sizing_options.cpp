@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sizing_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include <pgdr/domain/scale.h>
+#include <pgdr/report/format.h>
+
+#include "arguments.h"
+#include "messages.h"
+#include "size_expression.h"
+
+namespace pgdr::app {
+
+void Sizing_options::add_to(CLI::App& parser) {
+  parser.add_option("--size", size, "Upper bound of the circumradius of every tetrahedron")
+      ->type_name("R");
+  parser
+      .add_option("--edge-length", edge_length,
+                  "Edges of about this length where nothing asks for shorter ones: short for --size L/1.35, of which no edge is longer than 1.5 L")
+      ->type_name("L");
+  parser.add_option("--max-volume", max_volume, "Upper bound of the volume of every tetrahedron, as the circumradius of the regular one")->type_name("V");
+  parser
+      .add_option(
+          "--refine-box", refine_boxes,
+          "Upper bound R of the circumradius inside a box, as x0,y0,z0,x1,y1,z1:R; repeatable, the smallest "
+          "bound wins")
+      ->type_name("BOX:R")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--size-ball", size_balls,
+                  "Upper bound R of the circumradius inside a ball, as x,y,z,r:R; r may be 0; repeatable")
+      ->type_name("BALL:R")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--size-near-surface", near_surface,
+                  "Upper bound of the circumradius by the circumcenter's distance from the input's facets: R0 on them, R1 at the distance D and beyond, linear in between")
+      ->type_name("R0:R1:D");
+  parser
+      .add_option("--facet-size", facet_sizes,
+                  "Upper bound R of the circumradius of tetrahedra on the facets with a marker, a number or a name, growing by --gradation (0.5) around them; repeatable")
+      ->type_name("MARKER:R")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--size-expression", expression,
+                  "Upper bound of the circumradius by the circumcenter's x, y and z, as in \"0.1+0.2*abs(x)\" (muParser's syntax; functions like sin are "
+                  "the C library's, so meshes may differ between processors)")
+      ->type_name("TEXT");
+  parser
+      .add_option("--gradation", gradation,
+                  "Let the bounds of boxes, balls and markers grow by G for each unit of distance around them, instead of ending there (default: no bound around them)")
+      ->type_name("G");
+}
+
+namespace {
+
+/// Mean length of the edges of a mesh with a bound on circumradii, as a part of it: 1.33 to 1.36 in cubes of 39,000 to 6 million tetrahedra.
+constexpr double mean_edge = 1.35;
+
+/// How fast sizes grow around facets with a size of their own where --gradation does not say: in halves of the distance.
+constexpr double gradation_of_facets = 0.5;
+
+/// The circumradius of the regular tetrahedron, which of all with this circumradius has the largest volume: 8 sqrt(3) / 27 of its cube.
+double circumradius_of_volume(double volume) { return std::cbrt(volume * 27 / (8 * std::sqrt(3.0))); }
+
+double radius_everywhere(const Sizing_options& options) {
+  double radius = Uniform_sizing_field().radius();
+  if (!options.size.empty()) radius = parse_positive("--size", options.size);
+  if (!options.edge_length.empty()) radius = std::min(radius, parse_positive("--edge-length", options.edge_length) / mean_edge);
+  if (!options.max_volume.empty()) radius = std::min(radius, circumradius_of_volume(parse_positive("--max-volume", options.max_volume)));
+  return radius;
+}
+
+struct Facet_size {
+  std::string marker;  ///< a number or a name
+  double radius = 0;
+};
+
+/// "3:0.1" or "inlet:0.1"; a name may hold colons.
+Facet_size parse_facet_size(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) throw Usage_error("--facet-size: '" + text + "' is not of the form MARKER:R");
+  return {text.substr(0, colon), parse_positive("--facet-size", text.substr(colon + 1))};
+}
+
+/// All facets, or those for which `holds(facet)` does, in the user's unit.
+template <class Holds>
+std::vector<Distance_sizing_field::Triangle> triangles_of(const Domain& domain, const Holds& holds) {
+  const double unit = unit_of(domain);
+  std::vector<Distance_sizing_field::Triangle> triangles;
+  for (const auto& facet : domain.facets) {
+    if (!holds(facet)) continue;
+    for (const auto& t : facet.triangles) {
+      Distance_sizing_field::Triangle& triangle = triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& p = domain.vertices[t[i]];
+        triangle[i] = {unit * p.x(), unit * p.y(), unit * p.z()};
+      }
+    }
+  }
+  return triangles;
+}
+
+/// The markers that a text names: those with the name, else the number itself.
+std::vector<int> markers_named(const Domain& domain, const std::string& text) {
+  std::vector<int> markers;
+  for (const auto& [marker, name] : domain.names.markers)
+    if (name == text) markers.push_back(marker);
+  int number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  if (markers.empty() && last == end && error == std::errc()) markers.push_back(number);
+  return markers;
+}
+
+/// By the distance d from the facets, (1 - g) R + g d: a tetrahedron that touches them has d at most its circumradius r, so r <= (1 - g) R + g r,
+/// which is r <= R. Farther than `far` there is no bound.
+Distance_sizing_field sizes_on(const Domain& domain, const Facet_size& size, double gradation, double everywhere) {
+  const std::vector<int> markers = markers_named(domain, size.marker);
+  const auto triangles = triangles_of(domain, [&](const auto& facet) { return std::ranges::find(markers, facet.marker) != markers.end(); });
+  if (triangles.empty()) {
+    std::string known;
+    for (const auto& [marker, name] : domain.names.markers) known += (known.empty() ? "; names are " : ", ") + name;
+    throw Usage_error("--facet-size: no facet has the marker '" + size.marker + "'" + known);
+  }
+  const double near = (1 - gradation) * size.radius;
+  // Beyond the bounding box there are no circumcenters that count.
+  const double far = std::max(near, std::min(everywhere, near + 2 * gradation * unit_of(domain) * domain.diagonal));
+  return Distance_sizing_field(triangles, near, far, far > near ? (far - near) / gradation : 1);
+}
+
+/// A place that is nowhere near the domain is a slip, more often than not.
+void warn_of_places_outside(const Command_line_sizing::Local& sizes, const Domain& domain) {
+  const double unit = unit_of(domain);
+  const auto warn = [&](const std::string& what, const auto& lower, const auto& upper) {
+    bool is_outside = false;
+    for (std::size_t k = 0; k < 3; ++k) is_outside |= lower(k) > unit * domain.upper[k] || upper(k) < unit * domain.lower[k];
+    if (is_outside) print_message("warning: the refined " + what + " lies outside of the input");
+  };
+  const auto text = [](const std::array<double, 3>& p) { return significant(p[0]) + "," + significant(p[1]) + "," + significant(p[2]); };
+  for (const Sizing_box& box : sizes.boxes())
+    warn("box from " + text(box.lower), [&](std::size_t k) { return box.lower[k]; }, [&](std::size_t k) { return box.upper[k]; });
+  for (const Sizing_ball& ball : sizes.balls())
+    warn("ball around " + text(ball.center), [&](std::size_t k) { return ball.center[k] - ball.extent; },
+         [&](std::size_t k) { return ball.center[k] + ball.extent; });
+}
+
+}  // namespace
+
+Command_line_sizing::Local Sizing_options::local() const {
+  const Uniform_sizing_field everywhere(radius_everywhere(*this));
+  std::vector<Sizing_box> boxes;
+  for (const std::string& box : refine_boxes) boxes.push_back(parse_sizing_box(box));
+  std::vector<Sizing_ball> balls;
+  for (const std::string& ball : size_balls) balls.push_back(parse_sizing_ball(ball));
+  double growth = Command_line_sizing::Local::no_gradation;
+  if (!gradation.empty()) {
+    growth = parse_positive("--gradation", gradation);
+    if (!(growth < 1)) throw Usage_error("--gradation must be less than 1, because nothing bounds sizes that grow faster than the distance, not " + gradation);
+    if (boxes.empty() && balls.empty() && facet_sizes.empty())
+      throw Usage_error("--gradation is of boxes, balls and markers: it needs --refine-box, --size-ball or --facet-size");
+  } else if (std::ranges::any_of(balls, [](const Sizing_ball& ball) { return ball.extent == 0; })) {
+    throw Usage_error("--size-ball: a ball with a radius of 0 needs --gradation, because no circumcenter is exactly there");
+  }
+  return Command_line_sizing::Local(everywhere, std::move(boxes), std::move(balls), growth);
+}
+
+void Sizing_options::check() const {
+  local();
+  if (!near_surface.empty()) parse_sizes_near_surface(near_surface);
+  for (const std::string& text : facet_sizes) parse_facet_size(text);
+  if (!expression.empty()) parse_size_expression(expression);
+}
+
+Command_line_sizing Sizing_options::field(const Domain& domain) const {
+  const Command_line_sizing::Local places = local();
+  warn_of_places_outside(places, domain);
+  std::vector<Distance_sizing_field> by_distance;
+  if (!near_surface.empty()) {
+    const Sizes_near_surface sizes = parse_sizes_near_surface(near_surface);
+    by_distance.emplace_back(triangles_of(domain, [](const auto&) { return true; }), sizes.near, sizes.far, sizes.reach);
+  }
+  const double growth = gradation.empty() ? gradation_of_facets : parse_positive("--gradation", gradation);
+  for (const std::string& text : facet_sizes) by_distance.push_back(sizes_on(domain, parse_facet_size(text), growth, places.outer().radius()));
+  std::vector<Command_line_sizing::Function> functions;
+  if (!expression.empty()) functions.push_back(parse_size_expression(expression));
+  return Command_line_sizing(places, std::move(by_distance), std::move(functions));
+}
+
+}  // namespace pgdr::app

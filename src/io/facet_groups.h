@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Private to src/io: which facets of a surface file belong together, and what the file calls them.
+#ifndef PGDR_SRC_IO_FACET_GROUPS_H
+#define PGDR_SRC_IO_FACET_GROUPS_H
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pgdr/domain/default_kernel.h>
+
+namespace pgdr::io_detail {
+
+/// "#ff8000", of red, green and blue from 0 to 255.
+inline std::string color_name(const std::array<double, 3>& rgb) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string name = "#";
+  for (const double x : rgb) {
+    const auto level = static_cast<unsigned>(std::clamp(x + 0.5, 0.0, 255.0));
+    name += digits[level / 16];
+    name += digits[level % 16];
+  }
+  return name;
+}
+
+/// Facets by the names that hold where they stand. A name has two parts, as in an OBJ file, where a facet has a group and a material.
+class Facet_groups {
+ public:
+  using Name = std::pair<std::string, std::string>;
+
+  /// What the facets that follow are called; either part may be empty.
+  void enter(Name name) {
+    if (!groups_.empty() && name == names_[current_]) return;
+    const auto [found, is_new] = groups_.try_emplace(std::move(name), static_cast<std::uint32_t>(names_.size()));
+    if (is_new) names_.push_back(found->first);
+    current_ = found->second;
+  }
+  void enter(std::string name) { enter(Name(std::move(name), {})); }
+
+  /// The next facet.
+  void add_facet() {
+    if (names_.empty()) enter(Name());
+    of_facet_.push_back(current_);
+  }
+
+  /// Gives the facets of a surface their markers: 1, 2, ... in the order in which the groups begin where there are several, else 0.
+  void mark(Plc& plc) const {
+    std::vector<int> marker(names_.size(), 0);
+    std::vector<std::uint32_t> used;
+    for (const std::uint32_t g : of_facet_) {
+      if (marker[g] != 0) continue;
+      used.push_back(g);
+      marker[g] = static_cast<int>(used.size());
+    }
+    const bool is_one = used.size() == 1;
+    if (used.size() > 1)
+      for (std::size_t f = 0; f < plc.facets.size(); ++f) plc.facets[f].marker = marker[of_facet_[f]];
+    for (const std::uint32_t g : used)
+      if (std::string name = shown(g, used); !name.empty()) plc.names.markers[is_one ? 0 : marker[g]] = std::move(name);
+  }
+
+ private:
+  /// The part that tells all groups apart, or both.
+  std::string shown(std::uint32_t group, const std::vector<std::uint32_t>& used) const {
+    const auto tells_apart = [&](std::string Name::*part) {
+      std::set<std::string> values;
+      for (const std::uint32_t g : used)
+        if ((names_[g].*part).empty() || !values.insert(names_[g].*part).second) return false;
+      return true;
+    };
+    const auto& [first, second] = names_[group];
+    if (tells_apart(&Name::first)) return first;
+    if (tells_apart(&Name::second)) return second;
+    return first.empty() || second.empty() ? first + second : first + ":" + second;
+  }
+
+  std::map<Name, std::uint32_t> groups_;
+  std::vector<Name> names_;
+  std::vector<std::uint32_t> of_facet_;
+  std::uint32_t current_ = 0;
+};
+
+}  // namespace pgdr::io_detail
+
+#endif
