@@ -18,11 +18,11 @@
 #include <pgdr/io/write_mesh.h>
 #include <pgdr/io/write_quality.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
+#include <pgdr/mesh_domain.h>
 #include <pgdr/parallel/thread_arena.h>
 #include <pgdr/parameters.h>
 #include <pgdr/quality/exempt_angles.h>
 #include <pgdr/quality/mesh_quality.h>
-#include <pgdr/refine_mesh_3.h>
 #include <pgdr/report/format.h>
 #include <pgdr/report/memory.h>
 #include <pgdr/report/phase_timer.h>
@@ -263,8 +263,11 @@ int run_mesh(const Mesh_arguments& arguments) {
   p.cancel = &Interrupt_guard::flag();
   p.progress = [&progress](const Progress& now) { progress.update(now); };
   {
-    auto refined = refine_mesh_3(Domain(*domain), sizing, p);
-    const Run_statistics& statistics = refined.statistics();
+    auto [meshed, statistics] = mesh_domain(Domain(*domain), sizing, p, [&](const Run_statistics& refined) {
+      timer.end_phases(refined.seconds);
+      progress.show("numbering");
+    });
+    mesh = std::move(meshed);
     run.stop = statistics.stop;
     run.stop_message = statistics.stop_message;
     run.steiner_points = statistics.steiner_points;
@@ -274,9 +277,6 @@ int run_mesh(const Mesh_arguments& arguments) {
     run.optimization = statistics.optimization;
     run.schedule = statistics.schedule;
     run.serial_share = serial_share(statistics);
-    timer.end_phases(statistics.seconds);
-    progress.show("numbering");
-    mesh = indexed_mesh_3(std::move(refined));
   }
   timer.end_phase("numbering");
   progress.show("measuring");

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include <pgdr/domain/scale.h>
 #include <pgdr/report/format.h>
+#include <pgdr/sizing/facet_sizes.h>
 
 #include "arguments.h"
 #include "messages.h"
@@ -89,50 +88,13 @@ Facet_size parse_facet_size(const std::string& text) {
   return {text.substr(0, colon), parse_positive("--facet-size", text.substr(colon + 1))};
 }
 
-/// All facets, or those for which `holds(facet)` does, in the user's unit.
-template <class Holds>
-std::vector<Distance_sizing_field::Triangle> triangles_of(const Domain& domain, const Holds& holds) {
-  const double unit = unit_of(domain);
-  std::vector<Distance_sizing_field::Triangle> triangles;
-  for (const auto& facet : domain.facets) {
-    if (!holds(facet)) continue;
-    for (const auto& t : facet.triangles) {
-      Distance_sizing_field::Triangle& triangle = triangles.emplace_back();
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto& p = domain.vertices[t[i]];
-        triangle[i] = {unit * p.x(), unit * p.y(), unit * p.z()};
-      }
-    }
-  }
-  return triangles;
-}
-
-/// The markers that a text names: those with the name, else the number itself.
-std::vector<int> markers_named(const Domain& domain, const std::string& text) {
-  std::vector<int> markers;
-  for (const auto& [marker, name] : domain.names.markers)
-    if (name == text) markers.push_back(marker);
-  int number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, number);
-  if (markers.empty() && last == end && error == std::errc()) markers.push_back(number);
-  return markers;
-}
-
-/// By the distance d from the facets, (1 - g) R + g d: a tetrahedron that touches them has d at most its circumradius r, so r <= (1 - g) R + g r,
-/// which is r <= R. Farther than `far` there is no bound.
 Distance_sizing_field sizes_on(const Domain& domain, const Facet_size& size, double gradation, double everywhere) {
   const std::vector<int> markers = markers_named(domain, size.marker);
-  const auto triangles = triangles_of(domain, [&](const auto& facet) { return std::ranges::find(markers, facet.marker) != markers.end(); });
-  if (triangles.empty()) {
-    std::string known;
-    for (const auto& [marker, name] : domain.names.markers) known += (known.empty() ? "; names are " : ", ") + name;
-    throw Usage_error("--facet-size: no facet has the marker '" + size.marker + "'" + known);
-  }
-  const double near = (1 - gradation) * size.radius;
-  // Beyond the bounding box there are no circumcenters that count.
-  const double far = std::max(near, std::min(everywhere, near + 2 * gradation * unit_of(domain) * domain.diagonal));
-  return Distance_sizing_field(triangles, near, far, far > near ? (far - near) / gradation : 1);
+  const bool is_there = std::ranges::any_of(domain.facets, [&](const auto& facet) { return std::ranges::find(markers, facet.marker) != markers.end(); });
+  if (is_there) return facet_sizes(domain, markers, size.radius, gradation, everywhere);
+  std::string known;
+  for (const auto& [marker, name] : domain.names.markers) known += (known.empty() ? "; names are " : ", ") + name;
+  throw Usage_error("--facet-size: no facet has the marker '" + size.marker + "'" + known);
 }
 
 /// A place that is nowhere near the domain is a slip, more often than not.
@@ -184,7 +146,7 @@ Command_line_sizing Sizing_options::field(const Domain& domain) const {
   std::vector<Distance_sizing_field> by_distance;
   if (!near_surface.empty()) {
     const Sizes_near_surface sizes = parse_sizes_near_surface(near_surface);
-    by_distance.emplace_back(triangles_of(domain, [](const auto&) { return true; }), sizes.near, sizes.far, sizes.reach);
+    by_distance.emplace_back(facet_triangles_of(domain), sizes.near, sizes.far, sizes.reach);
   }
   const double growth = gradation.empty() ? gradation_of_facets : parse_positive("--gradation", gradation);
   for (const std::string& text : facet_sizes) by_distance.push_back(sizes_on(domain, parse_facet_size(text), growth, places.outer().radius()));

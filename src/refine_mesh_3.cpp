@@ -2,7 +2,10 @@
 // The front door for the default kernel.
 #include <pgdr/refine_mesh_3.h>
 
+#include <functional>
 #include <utility>
+
+#include <pgdr/mesh_domain.h>
 
 namespace pgdr {
 
@@ -15,5 +18,13 @@ Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel> domain, co
   return refine_mesh_3(std::move(domain), Command_line_sizing(sizing), parameters);
 }
 template Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Uniform_sizing_field&, const Parameters&);
+
+Meshed_domain mesh_domain(Domain_3<Default_kernel> domain, const Command_line_sizing& sizing, const Parameters& parameters,
+                          const std::function<void(const Run_statistics&)>& refined) {
+  auto mesh = refine_mesh_3(std::move(domain), sizing, parameters);
+  Run_statistics statistics = std::move(mesh.statistics());
+  if (refined) refined(statistics);
+  return {indexed_mesh_3(std::move(mesh)), std::move(statistics)};
+}
 
 }  // namespace pgdr

@@ -14,7 +14,7 @@ from pathlib import Path
 MAX_LINES = 500
 # For a room that must not grow again: the most files and lines in include/.
 BUDGET = {"acute": (6, 900)}
-FRONT_DOORS = {"refine_mesh_3.h", "make_mesh_3.h"}
+FRONT_DOORS = {"refine_mesh_3.h", "make_mesh_3.h", "mesh_domain.h"}
 # Rooms that come after everything: only the front doors include them.
 LAST_ROOMS = {"slivers", "cgal"}
 OPEN_TO_ALL = {"parameters.h"}

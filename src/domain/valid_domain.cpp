@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/domain/valid_domain.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/validate_domain_3.h>
+
+namespace pgdr {
+
+Domain_3<Default_kernel> valid_domain(const Plc& plc, double coplanar_tolerance, bool triangulate, std::vector<Input_problem>* warnings) {
+  Domain_3<Default_kernel> domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+  std::vector<Input_problem> problems = validate_domain_3(domain);
+  if (!std::ranges::all_of(problems, &Input_problem::is_warning)) throw Input_error(std::move(problems));
+  if (warnings) *warnings = std::move(problems);
+  return domain;
+}
+
+}  // namespace pgdr
