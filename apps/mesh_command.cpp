@@ -81,7 +81,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
                   "A PLC (.poly, .smesh) or a closed surface (.off, .stl, .ply, .obj); several are the parts of an assembly, a region each")
       ->required()
       ->type_name("");
-  parser.add_option("-o,--output", arguments.outputs, "File to write, in the format of its extension: .vtu, .mesh, .msh (Gmsh), .inp (Abaqus), .su2 or .ele (TetGen); repeatable")
+  parser.add_option("-o,--output", arguments.outputs, "File to write, in the format of its extension: .vtu, .vtk, .mesh, .msh (Gmsh), .inp (Abaqus), .su2 or .ele (TetGen); repeatable")
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);

@@ -12,6 +12,7 @@
 #include <CGAL/assertions.h>
 #include <CGAL/assertions_behaviour.h>
 #include <CGAL/exceptions.h>
+#include <CGAL/version.h>
 
 #include <pgdr/domain/input_error.h>
 #include <pgdr/io/output_error.h>
@@ -34,7 +35,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App program(
       "Delaunay refinement: tetrahedral meshes of guaranteed quality from piecewise linear complexes.",
       "pgdr");
-  program.set_version_flag("--version", "pgdr " PGDR_VERSION);
+  program.set_version_flag("--version", "pgdr " PGDR_VERSION " (CGAL " CGAL_STR(CGAL_VERSION) ", oneTBB " PGDR_TBB_VERSION ")");
   program.require_subcommand(0, 1);  // none is reported below, in our own words
   const std::array<Command, 3> commands{add_mesh_command(program), add_check_command(program),
                                         add_info_command(program)};

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What an installation has besides program and library: manual pages and completions, made of what --help says; and how `cpack` makes a .deb
+# of it all. The former need help2man and Python; without, they are left out.
+if(TARGET pgdr-app)
+  include(Python)
+  find_program(PGDR_HELP2MAN help2man)
+  mark_as_advanced(PGDR_HELP2MAN)
+  set(from_help)
+  if(PGDR_PYTHON)
+    set(completions pgdr.bash _pgdr pgdr.fish)
+    list(TRANSFORM completions PREPEND ${PROJECT_BINARY_DIR}/completions/)
+    set(script ${PROJECT_SOURCE_DIR}/packaging/completions.py)
+    add_custom_command(OUTPUT ${completions} DEPENDS pgdr-app ${script} VERBATIM
+      COMMAND ${PGDR_PYTHON} -B ${script} $<TARGET_FILE:pgdr-app> ${PROJECT_BINARY_DIR}/completions)
+    list(APPEND from_help ${completions})
+    install(FILES ${PROJECT_BINARY_DIR}/completions/pgdr.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME pgdr)
+    install(FILES ${PROJECT_BINARY_DIR}/completions/_pgdr DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+    install(FILES ${PROJECT_BINARY_DIR}/completions/pgdr.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  endif()
+  if(PGDR_HELP2MAN)
+    foreach(command IN ITEMS "" mesh check info)
+      string(REGEX REPLACE "-$" "" name pgdr-${command})
+      set(page ${PROJECT_BINARY_DIR}/man/${name}.1)
+      add_custom_command(OUTPUT ${page} DEPENDS pgdr-app VERBATIM
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/man
+        COMMAND ${PGDR_HELP2MAN} --no-info --version-string=${PROJECT_VERSION} "--name=tetrahedral meshes by Delaunay refinement" --output=${page}
+          "$<TARGET_FILE:pgdr-app> ${command}")
+      list(APPEND from_help ${page})
+      install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    endforeach()
+  endif()
+  add_custom_target(pgdr-from-help ALL DEPENDS ${from_help})
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "the pgdr developers <pgdr@invalid>")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libcgal-dev, libtbb-dev, python3-meshio")  # for the headers; for Mesh.to_meshio()
+include(CPack)
