@@ -18,6 +18,7 @@ struct Command {
 Command add_mesh_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
+Command add_view_command(CLI::App& program);
 
 /// `--quality FILE`, of those that have a mesh.
 inline void add_quality_option(CLI::App& parser, std::string& path) {

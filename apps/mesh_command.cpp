@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <pgdr/domain/scale.h>
+#include <pgdr/domain/summarize_domain_3.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/input_facets.h>
 #include <pgdr/io/read_plc.h>
@@ -36,6 +37,7 @@
 #include "interrupt.h"
 #include "messages.h"
 #include "read_domain.h"
+#include "report_page.h"
 #include "size_estimate.h"
 #include "sizing_options.h"
 #include "stats_file.h"
@@ -66,6 +68,7 @@ struct Mesh_arguments {
   std::string stats;
   std::string quality;
   std::string trace;
+  std::string report;
   std::string problems;
   std::string octree_depth;
   bool check_zones = false;
@@ -140,6 +143,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
   parser.add_option("--stats", arguments.stats, "Write the summary as JSON; '-': to the standard output, in place of the one for people")
       ->type_name("FILE");
   add_quality_option(parser, arguments.quality);
+  parser.add_option("--report", arguments.report, "Write a page to look at in a browser: what went in, what came out, times, and a picture to cut open (.html)")->type_name("FILE");
   parser
       .add_option("--trace", arguments.trace,
                   "Write a timeline of all leaf tasks in the Chrome trace-event format, for chrome://tracing or Perfetto")
@@ -171,7 +175,7 @@ Parameters parameters(const Mesh_arguments& arguments) {
   p.max_memory = memory_limit(arguments.max_memory);
   if (!arguments.time_limit.empty()) p.time_limit = parse_positive("--time-limit", arguments.time_limit);
   p.check_zones = p.check_zones || arguments.check_zones;
-  p.record_tasks = !arguments.trace.empty();
+  p.record_tasks = !arguments.trace.empty() || !arguments.report.empty();
   p.verify = arguments.verify;
   return p;
 }
@@ -200,6 +204,11 @@ void check_outputs(const Mesh_arguments& arguments) {
     files.emplace_back(arguments.quality);
   }
   if (!arguments.trace.empty()) files.emplace_back(arguments.trace);
+  if (!arguments.report.empty()) {
+    require_page("--report");
+    require_extension("--report", arguments.report, {".html"});
+    files.emplace_back(arguments.report);
+  }
   add_problem_file(arguments.problems, files);
   require_distinct_files({arguments.inputs.begin(), arguments.inputs.end()}, files);
   for (const auto& file : files) check_writable(file);
@@ -224,6 +233,22 @@ void find_facets_of_files(Indexed_mesh_3& mesh, const Mesh_arguments& arguments)
   } catch (const Input_error& error) {
     print_message(std::string("warning: triangles are written without the input's facets: ") + error.what());
   }
+}
+
+/// What went in, for people.
+Rows input_rows(const Domain& domain, const Run_summary& run) {
+  const Domain_summary summary = summarize_domain_3(domain);
+  Rows rows{{"vertices", with_separators(summary.vertices)},
+            {"facets", with_separators(summary.facets) + " of " + with_separators(summary.input_facets) + " in the file"},
+            {"segments", with_separators(summary.segments)},
+            {"smallest dihedral angle", significant(summary.smallest_dihedral_deg, 4) + " degrees"},
+            {"smallest plane angle", significant(summary.smallest_plane_angle_deg, 4) + " degrees"}};
+  if (summary.plane_corners_below_14_48 > 0)
+    rows.emplace_back("plane angles below 14.48 degrees", with_separators(summary.plane_corners_below_14_48) + ", where no bound on the radius-edge ratio can hold");
+  if (!run.repair.is_none()) rows.emplace_back("repaired", repair_text(run.repair));
+  if (!run.simplification.is_none()) rows.emplace_back("simplified", simplification_text(run.simplification));
+  if (!run.planarization.is_none()) rows.emplace_back("made plane", planarization_text(run.planarization));
+  return rows;
 }
 
 int run_mesh(const Mesh_arguments& arguments) {
@@ -253,7 +278,9 @@ int run_mesh(const Mesh_arguments& arguments) {
     });
   }
   const Command_line_sizing sizing = arguments.sizing.field(*domain);
-  if (p.max_vertices == 0) require_memory(expected_vertices(*domain, sizing, p.ignore_region_sizes), p.max_memory);
+  const double expected = expected_vertices(*domain, sizing, p.ignore_region_sizes);
+  if (p.max_vertices == 0) require_memory(expected, p.max_memory);
+  progress.expect(p.max_vertices == 0 ? expected : std::min(expected, static_cast<double>(p.max_vertices)));
   timer.end_phase("validation");
   if (p.time_limit > 0) p.time_limit = std::max(p.time_limit - timer.total_seconds(), 1e-3);
 
@@ -261,7 +288,11 @@ int run_mesh(const Mesh_arguments& arguments) {
   Indexed_mesh_3 mesh;
   const Interrupt_guard interrupt;
   p.cancel = &Interrupt_guard::flag();
-  p.progress = [&progress](const Progress& now) { progress.update(now); };
+  Progress_record record;
+  p.progress = [&](const Progress& now) {
+    progress.update(now);
+    if (!arguments.report.empty()) record.add(now);
+  };
   {
     auto [meshed, statistics] = mesh_domain(Domain(*domain), sizing, p, [&](const Run_statistics& refined) {
       timer.end_phases(refined.seconds);
@@ -309,6 +340,13 @@ int run_mesh(const Mesh_arguments& arguments) {
   run.peak_memory_bytes = peak_memory_bytes();
   if (!arguments.stats.empty()) write_stats(run, arguments.stats);
   if (!arguments.trace.empty()) write_trace(run.schedule, arguments.trace);
+  if (!arguments.report.empty() && is_usable) {
+    progress.show("writing " + arguments.report);
+    std::string title;
+    for (const std::string& input : arguments.inputs) title += (title.empty() ? "" : ", ") + std::filesystem::path(input).filename().string();
+    write_report(mesh, {title, "meshed by pgdr " PGDR_VERSION, input_rows(*domain, run), p.radius_edge_ratio, &run, &record}, arguments.report);
+    progress.erase();
+  }
   if (!arguments.quiet && arguments.stats != "-") print_summary(std::cout, run);
   if (run.stop == Stop_reason::finished && !is_usable) {
     print_message(names_of(arguments.inputs) + " encloses nothing that is not a hole: there are no tetrahedra, and nothing was written");

@@ -37,8 +37,7 @@ int parse_and_run(int argc, char** argv) {
       "pgdr");
   program.set_version_flag("--version", "pgdr " PGDR_VERSION " (CGAL " CGAL_STR(CGAL_VERSION) ", oneTBB " PGDR_TBB_VERSION ")");
   program.require_subcommand(0, 1);  // none is reported below, in our own words
-  const std::array<Command, 3> commands{add_mesh_command(program), add_check_command(program),
-                                        add_info_command(program)};
+  const std::array<Command, 4> commands{add_mesh_command(program), add_check_command(program), add_info_command(program), add_view_command(program)};
   program.footer(
       "Exit codes: 0 done, 1 failed, 2 usage, 3 bad input, 4 stopped by a limit or Ctrl-C (the mesh is "
       "valid, or the message says that none was written).");
@@ -55,7 +54,7 @@ int parse_and_run(int argc, char** argv) {
   for (const Command& command : commands) {
     if (command.parser->parsed()) return command.run();
   }
-  throw Usage_error("no command given: mesh, check or info (--help tells what is possible)");
+  throw Usage_error("no command given: mesh, check, info or view (--help tells what is possible)");
 }
 
 /// What the user may do about an input that cannot be meshed.

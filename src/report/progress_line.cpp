@@ -2,6 +2,7 @@
 #include <pgdr/report/progress_line.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <system_error>
@@ -58,11 +59,35 @@ void Progress_line::show(std::string_view text) {
   if (is_terminal_) write_in_place();
 }
 
+void Progress_line::expect(double vertices) {
+  const std::lock_guard lock(mutex_);
+  expected_ = vertices;
+}
+
+/// Of the phase, from 0 to less than 1; 0 where it cannot be told. The refinement adds vertices until there are as many as expected; what comes
+/// after it takes what waits, and little new comes up.
+double Progress_line::share_done(const Progress& now) const {
+  static constexpr double most = 0.99;
+  const auto share = [](double done, double all) { return all > 0 ? std::clamp(done / all, 0.0, most) : 0.0; };
+  const std::string_view phase = now.phase;
+  if (phase == "refinement") return share(static_cast<double>(now.vertices) - static_cast<double>(first_.vertices), expected_ - static_cast<double>(first_.vertices));
+  if (phase == "conforming") return 0;
+  return share(static_cast<double>(first_.pending) - static_cast<double>(now.pending), static_cast<double>(first_.pending));
+}
+
 void Progress_line::update(const Progress& progress) {
   if (stream_ == nullptr) return;
-  const std::string detail = with_separators(progress.vertices) + " vertices, " + with_separators(progress.pending) + " elements pending";
-  if (phase_.data() != std::string_view(progress.phase)) show(progress.phase);
+  std::string detail = with_separators(progress.vertices) + " vertices, " + with_separators(progress.pending) + " elements pending";
+  if (phase_.data() != std::string_view(progress.phase)) {
+    show(progress.phase);
+    first_ = progress;
+  }
   const std::lock_guard lock(mutex_);
+  const double share = share_done(progress);
+  const double seconds = std::chrono::duration<double>(Clock::now() - phase_began_).count();
+  constexpr double least_share = 0.02, least_seconds = 1;  // before that, what is left is anybody's guess
+  if (share >= least_share && seconds >= least_seconds)
+    detail = std::to_string(static_cast<int>(100 * share)) + " %, about " + std::to_string(static_cast<int>(std::ceil(seconds / share * (1 - share)))) + " s left, " + detail;
   assign(detail_, detail);
 }
 

@@ -31,6 +31,29 @@ bool comes(std::FILE* file, const std::string& part) {
   return false;
 }
 
+TEST_CASE("Where it is known how many vertices there will be, the share that is done is told") {
+  std::FILE* file = std::tmpfile();
+  REQUIRE(file != nullptr);
+  {
+    Progress_line line(true, nullptr, file);
+    line.set_pace({5ms, 5ms});
+    line.update({"conforming", 100, 7});
+    line.update({"refinement", 100, 7});
+    CHECK_FALSE(text_of(file).find('%') != std::string::npos);
+    line.expect(1100);
+    std::this_thread::sleep_for(1100ms);
+    line.update({"refinement", 850, 900});
+    CHECK(comes(file, ": 75 %, about 1 s left, 850 vertices, 900 elements pending"));
+    line.update({"refinement", 5000, 900});
+    CHECK(comes(file, ": 99 %"));  // it was only an estimate
+    line.update({"removing slivers", 5000, 80});
+    std::this_thread::sleep_for(1100ms);
+    line.update({"removing slivers", 5001, 60});
+    CHECK(comes(file, ": 25 %, about 4 s left, 5,001 vertices, 60 elements pending"));
+  }
+  std::fclose(file);
+}
+
 TEST_CASE("A log gets a line now and then, though the program calls nothing") {
   std::FILE* file = std::tmpfile();
   REQUIRE(file != nullptr);

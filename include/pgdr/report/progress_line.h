@@ -30,6 +30,8 @@ class Progress_line {
 
   /// A phase begins: `text` is shown at once.
   void show(std::string_view text);
+  /// How many vertices the refinement will have, estimated; 0: nobody knows. From then on its share that is done is told, and the time that is left.
+  void expect(double vertices);
   /// How far the refinement is; its phase begins with the first call that names it.
   void update(const Progress& progress);
   /// Nothing is shown until the next `show` or `update`.
@@ -46,6 +48,7 @@ class Progress_line {
   using Clock = std::chrono::steady_clock;
   using Text = std::array<char, 256>;
 
+  double share_done(const Progress& now) const;
   void run(const std::stop_token& stop);
   void confirm_interrupt();
   void write_line();
@@ -61,6 +64,8 @@ class Progress_line {
   bool is_confirmed_ = false;
   Text phase_{};
   Text detail_{};
+  double expected_ = 0;
+  Progress first_{};  ///< of the phase
   Pace pace_;
   Clock::time_point phase_began_{};
   Clock::time_point written_{};
