@@ -5,11 +5,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 
 #include <pgdr/domain/scale.h>
+#include <pgdr/domain/input_error.h>
+#include <pgdr/io/read_sizes.h>
 #include <pgdr/report/format.h>
 #include <pgdr/sizing/facet_sizes.h>
+#include <pgdr/sizing/nodal_sizing_field.h>
 
 #include "arguments.h"
 #include "messages.h"
@@ -52,6 +56,10 @@ void Sizing_options::add_to(CLI::App& parser) {
                   "the C library's, so meshes may differ between processors)")
       ->type_name("TEXT");
   parser
+      .add_option("--size-field", field_file,
+                  "Upper bound of the circumradius from an array of a background mesh (.vtu) or image (.vti), linear between its points")
+      ->type_name("FILE:ARRAY");
+  parser
       .add_option("--gradation", gradation,
                   "Let the bounds of boxes, balls and markers grow by G for each unit of distance around them, instead of ending there (default: no bound around them)")
       ->type_name("G");
@@ -86,6 +94,25 @@ Facet_size parse_facet_size(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos || colon == 0) throw Usage_error("--facet-size: '" + text + "' is not of the form MARKER:R");
   return {text.substr(0, colon), parse_positive("--facet-size", text.substr(colon + 1))};
+}
+
+/// "sizes.vtu:h"; the file may have colons in its name.
+std::pair<std::string, std::string> parse_field(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon + 1 == text.size()) throw Usage_error("--size-field: '" + text + "' is not of the form FILE:ARRAY");
+  std::string file = text.substr(0, colon);
+  require_extension("--size-field", file, {".vtu", ".vti"});
+  return {std::move(file), text.substr(colon + 1)};
+}
+
+Command_line_sizing::Function field_of(const std::string& text) {
+  const auto [file, array] = parse_field(text);
+  const Nodal_values nodes = read_nodal_values(file, array);
+  try {
+    return [field = Nodal_sizing_field(nodes.points, nodes.values)](const std::array<double, 3>& p) { return field.size_at(p); };
+  } catch (const std::invalid_argument& error) {
+    throw Input_error(Input_problem::Kind::unreadable, "'" + file + "', '" + array + "': " + error.what());
+  }
 }
 
 Distance_sizing_field sizes_on(const Domain& domain, const Facet_size& size, double gradation, double everywhere) {
@@ -138,6 +165,7 @@ void Sizing_options::check() const {
   if (!near_surface.empty()) parse_sizes_near_surface(near_surface);
   for (const std::string& text : facet_sizes) parse_facet_size(text);
   if (!expression.empty()) parse_size_expression(expression);
+  if (!field_file.empty()) parse_field(field_file);
 }
 
 Command_line_sizing Sizing_options::field(const Domain& domain) const {
@@ -152,6 +180,7 @@ Command_line_sizing Sizing_options::field(const Domain& domain) const {
   for (const std::string& text : facet_sizes) by_distance.push_back(sizes_on(domain, parse_facet_size(text), growth, places.outer().radius()));
   std::vector<Command_line_sizing::Function> functions;
   if (!expression.empty()) functions.push_back(parse_size_expression(expression));
+  if (!field_file.empty()) functions.push_back(field_of(field_file));
   return Command_line_sizing(places, std::move(by_distance), std::move(functions));
 }
 

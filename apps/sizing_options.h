@@ -23,6 +23,7 @@ struct Sizing_options {
   std::string near_surface;
   std::vector<std::string> facet_sizes;
   std::string expression;
+  std::string field_file;
   std::string gradation;
 
   /// Adds them; the object must outlive the parsing.

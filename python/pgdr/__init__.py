@@ -19,11 +19,11 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from . import _pgdr
-from ._pgdr import Grid, InputError, __version__
+from ._pgdr import Grid, InputError, Nodes, __version__
 
-__all__ = ["Grid", "InputError", "Mesh", "Plc", "assemble", "mesh", "read", "repair", "__version__"]
+__all__ = ["Grid", "InputError", "Mesh", "Nodes", "Plc", "assemble", "mesh", "read", "repair", "__version__"]
 
-Size = "None | float | Callable[[float, float, float], float] | Grid"
+Size = "None | float | Callable[[float, float, float], float] | Grid | Nodes"
 
 
 class Plc(_pgdr.Plc):
@@ -255,7 +255,7 @@ def mesh(
     ----------
     points, facets, markers, regions, holes, nesting
         As of `Plc`; or a `Plc`, as `read` gives it, in place of `points` and alone.
-    size : None, float, function of (x, y, z), or Grid
+    size : None, float, function of (x, y, z), Grid or Nodes
         Upper bound of the circumradius of every tetrahedron, by its circumcenter. A function is called from several threads, one call at a time;
         it must return the same for the same point. None: as coarse as the shape allows.
     facet_sizes : dictionary from markers, or their names, to floats

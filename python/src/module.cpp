@@ -466,6 +466,6 @@ PYBIND11_MODULE(_pgdr, m) {
   m.attr("__version__") = PGDR_VERSION;
   add_errors(m);
   add_plc(m);
-  pgdr_python::add_grid(m);
+  pgdr_python::add_fields(m);
   add_mesh(m);
 }

@@ -16,6 +16,7 @@
 
 #include <pgdr/sizing/facet_sizes.h>
 #include <pgdr/sizing/grid_sizing_field.h>
+#include <pgdr/sizing/nodal_sizing_field.h>
 
 namespace py = pybind11;
 
@@ -83,6 +84,8 @@ pgdr::Command_line_sizing sizing_of(const py::object& size, const py::object& fa
   if (size.is_none()) {
   } else if (py::isinstance<pgdr::Grid_sizing_field>(size)) {
     functions.emplace_back([grid = size.cast<pgdr::Grid_sizing_field>()](const std::array<double, 3>& p) { return grid(Point{p}); });
+  } else if (py::isinstance<pgdr::Nodal_sizing_field>(size)) {
+    functions.emplace_back([nodes = size.cast<pgdr::Nodal_sizing_field>()](const std::array<double, 3>& p) { return nodes.size_at(p); });
   } else if (PyCallable_Check(size.ptr())) {
     functions.push_back(function_of(size, errors));
   } else {
@@ -104,8 +107,26 @@ pgdr::Command_line_sizing sizing_of(const py::object& size, const py::object& fa
                                    std::move(functions));
 }
 
-void add_grid(py::module_& module) {
+void add_fields(py::module_& module) {
   using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  py::class_<pgdr::Nodal_sizing_field>(module, "Nodes", R"(Sizes at any points, such as the nodes of a mesh: linear in between, in their Delaunay triangulation; outside of it, that of the nearest point.
+
+Parameters
+----------
+points : array of shape (n, 3)
+values : array of shape (n,)
+    Upper bounds of the circumradius there, positive and finite.)")
+      .def(py::init([](const Values& points, const std::vector<double>& values) {
+             if (points.ndim() != 2 || points.shape(1) != 3) throw py::value_error("points has to have the shape (n, 3)");
+             std::vector<std::array<double, 3>> nodes;
+             const auto at = points.unchecked<2>();
+             for (py::ssize_t i = 0; i < points.shape(0); ++i) nodes.push_back({at(i, 0), at(i, 1), at(i, 2)});
+             return pgdr::Nodal_sizing_field(nodes, values);
+           }),
+           py::arg("points"), py::arg("values"))
+      .def(
+          "__call__", [](const pgdr::Nodal_sizing_field& nodes, double x, double y, double z) { return nodes.size_at({x, y, z}); }, py::arg("x"), py::arg("y"),
+          py::arg("z"));
   py::class_<pgdr::Grid_sizing_field>(module, "Grid", R"(Sizes at the nodes of a regular grid, trilinear in between and, outside of it, those of its nearest point.
 
 Parameters

@@ -32,8 +32,8 @@ class First_error {
 pgdr::Command_line_sizing sizing_of(const pybind11::object& size, const pybind11::object& facet_sizes, double gradation,
                                     const pgdr::Domain_3<pgdr::Default_kernel>& domain, const std::shared_ptr<First_error>& errors);
 
-/// Adds the class Grid.
-void add_grid(pybind11::module_& module);
+/// Adds the classes Grid and Nodes.
+void add_fields(pybind11::module_& module);
 
 }  // namespace pgdr_python
 

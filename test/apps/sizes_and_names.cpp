@@ -99,6 +99,10 @@ TEST_CASE("sizes by expression, edge length and volume are bounds", "[apps]") {
   CHECK(mesh_of("--edge-length 0.135").tetrahedra.size() == fine);
   const std::size_t graded = mesh_of("--size-expression 'min(0.4, 0.1+0.3*x)'").tetrahedra.size();
   CHECK((graded < fine / 2 && graded > mesh_of("--size 0.4").tetrahedra.size()));
+  sandbox.write("back.vti",
+                "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"0 1 0 1 0 1\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece Extent=\"0 1 0 1 0 1\"><PointData>"
+                "<DataArray type=\"Float64\" Name=\"h\" format=\"ascii\">0.1 0.4 0.1 0.4 0.1 0.4 0.1 0.4</DataArray></PointData></Piece></ImageData></VTKFile>");
+  CHECK(mesh_of("--size-field back.vti:h").tetrahedra.size() == mesh_of("--size-expression 0.1+0.3*x").tetrahedra.size());
   const auto small = mesh_of("--max-volume 0.001");
   for (const auto& t : small.tetrahedra) CHECK(std::abs(pgdr::signed_volume(small.points[t[0]], small.points[t[1]], small.points[t[2]], small.points[t[3]])) <= 0.001);
 }
@@ -119,6 +123,8 @@ TEST_CASE("sizes that make no sense are refused by name", "[apps]") {
   fails("--size-expression 'x+w'", "'x+w'");
   fails("--edge-length 0", "--edge-length");
   fails("--max-volume=-1", "--max-volume");
+  fails("--size-field back.vtu", "FILE:ARRAY");
+  fails("--size-field back.txt:h", ".vti");
   fails("--order 3", "--order");
   fails("--order 2", "--order 2: 'out.mesh'");
   fails("--vtu-compression 10", "--vtu-compression");

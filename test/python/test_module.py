@@ -73,6 +73,9 @@ def test_sizes():
     values[0, :, :] = 0.1
     assert pgdr.Grid((0, 0, 0), (1, 1, 1), values)(0, 0.5, 0.5) == 0.1  # the first index is x
     assert pgdr.Grid((0, 0, 0), (1, 1, 1), values, gradation=0.2)(0.5, 0.5, 0.5) < 0.21
+    nodes = pgdr.Nodes(CORNERS, 0.1 + 0.3 * CORNERS[:, 0])
+    assert abs(nodes(0.25, 0.3, 0.6) - 0.175) < 1e-12 and nodes(5, 5, 5) == 0.4
+    assert len(pgdr.mesh(CORNERS, SIDES, size=nodes).tetrahedra) == len(graded.tetrahedra)
     by_facet = pgdr.mesh(CORNERS, SIDES, markers=[1, 0, 0, 0, 0, 0], facet_sizes={1: 0.05})
     radii = by_facet.points[by_facet.triangles[by_facet.markers == 1]]
     edges = np.linalg.norm(radii - np.roll(radii, 1, axis=1), axis=2)

@@ -90,5 +90,7 @@ if (data.phases && data.phases.length > 0)
   );
 document.body.append(element("footer", data.footer));
 
+// For pictures: the mesh alone.
+if (location.hash === "#picture") document.body.classList.add("picture");
 // For tests: a page opened with #test moves its plane by itself, and says in its status what it drew.
 if (view && location.hash === "#test") view.test();
