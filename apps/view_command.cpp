@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <pgdr/io/atomic_file.h>
-#include <pgdr/io/medit.h>
+#include <pgdr/io/read_mesh.h>
 #include <pgdr/mesh/scale_mesh.h>
 
 #include "arguments.h"
@@ -40,7 +40,7 @@ bool open_in_browser(const std::filesystem::path& path) {
 
 int run_view(const View_arguments& arguments) {
   require_page("view");
-  require_extension("MESH", arguments.mesh, {".mesh"});
+  require_extension("MESH", arguments.mesh, readable_mesh_extensions());
   const bool is_shown = arguments.output.empty();
   std::filesystem::path page = arguments.output;
   if (is_shown) page = std::filesystem::temp_directory_path() / ("pgdr-view-" + std::to_string(::getuid()) + ".html");
@@ -48,7 +48,7 @@ int run_view(const View_arguments& arguments) {
   require_distinct_files({arguments.mesh}, {page});
   check_writable(page);
 
-  Indexed_mesh_3 mesh = read_medit(arguments.mesh);
+  Indexed_mesh_3 mesh = read_mesh(arguments.mesh);
   if (mesh.tetrahedra.empty()) {
     print_message("'" + arguments.mesh + "' has no tetrahedra: there is nothing to look at");
     return exit_bad_input;
@@ -70,7 +70,7 @@ int run_view(const View_arguments& arguments) {
 Command add_view_command(CLI::App& program) {
   const auto arguments = std::make_shared<View_arguments>();
   CLI::App* parser = program.add_subcommand("view", "Look at a mesh: a page with a picture to cut open, histograms and the worst tetrahedra");
-  parser->add_option("MESH", arguments->mesh, "A .mesh file")->required()->type_name("");
+  parser->add_option("MESH", arguments->mesh, "A .mesh or .vtu file")->required()->type_name("");
   parser->add_option("-o,--output", arguments->output, "Write the page here (.html), in place of showing it")->type_name("FILE");
   return {parser, [arguments] { return run_view(*arguments); }};
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include <pgdr/io/read_mesh.h>
+
 #include "file_text.h"
 #include "readers.h"
 
@@ -30,8 +32,9 @@ Plc read_any(const std::filesystem::path& path, Markers_from markers) {
   if (extension == ".stl") return read_surface(path, Surface_format::stl, markers);
   if (extension == ".ply") return read_surface(path, Surface_format::ply, markers);
   if (extension == ".obj") return read_surface(path, Surface_format::obj, markers);
+  if (extension == ".mesh" || extension == ".vtu") return plc_of_mesh(read_mesh(path));
   fail_at(path, 0, Input_problem::Kind::unreadable,
-          "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj");
+          "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj, .mesh, .vtu");
 }
 
 }  // namespace
@@ -44,12 +47,12 @@ Plc read_plc(const std::filesystem::path& path, Markers_from markers) {
 
 bool is_surface_file(const std::filesystem::path& path) {
   const std::string extension = io_detail::lower_extension(path);
-  return is_known_plc_extension(path) && extension != ".poly" && extension != ".smesh";
+  return extension == ".off" || extension == ".stl" || extension == ".ply" || extension == ".obj";
 }
 
 bool is_known_plc_extension(const std::filesystem::path& path) {
   const std::string extension = io_detail::lower_extension(path);
-  for (const char* known : {".poly", ".smesh", ".off", ".stl", ".ply", ".obj"}) {
+  for (const char* known : {".poly", ".smesh", ".off", ".stl", ".ply", ".obj", ".mesh", ".vtu"}) {
     if (extension == known) return true;
   }
   return false;

@@ -160,7 +160,7 @@ class Vtu_writer {
 
   static std::string in_attribute(const std::string& name) {
     std::string text;
-    for (const char c : io_detail::quotable(name)) text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+    for (const char c : io_detail::quotable(name)) text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
     return text;
   }
 

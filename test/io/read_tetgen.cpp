@@ -205,7 +205,8 @@ TEST_CASE("files that cannot be read at all") {
   CHECK(message(folder.write("noextension", "1")).find("the extension '' is not one of") !=
         std::string::npos);
   CHECK(pgdr::is_known_plc_extension("a/b.OBJ"));
-  CHECK_FALSE(pgdr::is_known_plc_extension("a/b.mesh"));
+  CHECK(pgdr::is_known_plc_extension("a/b.mesh"));
+  CHECK_FALSE(pgdr::is_known_plc_extension("a/b.msh"));
 }
 
 TEST_CASE("poly: every prefix of a file is read or refused, never worse") {
