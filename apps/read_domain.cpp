@@ -101,7 +101,9 @@ void mark_and_name(Plc& plc, const Domain_options& options) {
   if (!options.patch_angle.empty()) mark_patches(plc, parse_patch_angle(options.patch_angle));
   for (const std::string& text : options.marker_names) {
     auto [marker, name] = parse_name("--name-marker", text);
-    plc.names.markers[marker] = std::move(name);
+    if (std::ranges::none_of(plc.facets, [marker = marker](const auto& facet) { return facet.marker == marker; }))
+      print_message("warning: --name-marker: no facet has the marker " + std::to_string(marker));
+    else plc.names.markers[marker] = std::move(name);
   }
   for (const std::string& text : options.region_names) {
     auto [id, name] = parse_name("--name-region", text);

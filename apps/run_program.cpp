@@ -16,6 +16,7 @@
 
 #include <pgdr/domain/input_error.h>
 #include <pgdr/io/output_error.h>
+#include <pgdr/sizing/sizing_field.h>
 
 #include "arguments.h"
 #include "command.h"
@@ -88,6 +89,9 @@ int run_program(int argc, char** argv) {
     return exit_code;
   } catch (const Usage_error& error) {
     return report(exit_usage, error.what());
+  } catch (const Sizing_error& error) {
+    print_message(error.what());
+    return exit_usage;
   } catch (const Input_error& error) {
     if (error.problems().empty()) return report(exit_bad_input, error.what());
     print_problems(error.problems());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -31,16 +32,34 @@ class Evaluator {
     return parser_.Eval();
   }
 
+  /// How many the last evaluation had.
+  int values() const { return parser_.GetNumResults(); }
+
  private:
   std::array<double, 3> point_{};
   mu::Parser parser_;
 };
 
+/// Whether an equals sign stands for itself, and not in ==, !=, <= or >=.
+bool assigns(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    const char before = i > 0 ? text[i - 1] : ' ', after = i + 1 < text.size() ? text[i + 1] : ' ';
+    if (after == '=') ++i;
+    else if (before != '!' && before != '<' && before != '>') return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Command_line_sizing::Function parse_size_expression(const std::string& text) {
   try {
-    Evaluator(text).at({});
+    if (text.find_first_not_of(" \t") == std::string::npos) throw Usage_error("--size-expression is empty");
+    Evaluator evaluator(text);
+    evaluator.at({});
+    if (evaluator.values() != 1) throw Usage_error("--size-expression: '" + text + "' has several values; a decimal point is a point, not a comma");
+    if (assigns(text)) throw Usage_error("--size-expression: '" + text + "' assigns to a variable: a size is wanted");
   } catch (const mu::Parser::exception_type& error) {
     throw Usage_error("--size-expression: '" + text + "' is not an expression in x, y and z: " + error.GetMsg());
   }

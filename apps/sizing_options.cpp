@@ -54,7 +54,8 @@ void Sizing_options::add_to(CLI::App& parser) {
       .add_option("--size-expression", expression,
                   "Upper bound of the circumradius by the circumcenter's x, y and z, as in \"0.1+0.2*abs(x)\" (muParser's syntax; functions like sin are "
                   "the C library's, so meshes may differ between processors)")
-      ->type_name("TEXT");
+      ->type_name("TEXT")
+      ->check([](const std::string& text) { return text.empty() ? std::string("it is empty") : std::string(); });
   parser
       .add_option("--size-field", field_file,
                   "Upper bound of the circumradius from an array of a background mesh (.vtu) or image (.vti), linear between its points")

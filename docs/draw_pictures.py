@@ -20,7 +20,7 @@ def main():
             page = Path(folder) / "page.html"
             subprocess.run([program, "mesh", *arguments, "--quiet", "-o", Path(folder) / "out.vtu", "--report", page], cwd=ROOT, check=True)
             command = ["chromium", "--headless", "--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--hide-scrollbars", "--disable-background-networking"]
-            command += ["--window-size=1000,640", f"--user-data-dir={folder}/profile", f"--screenshot={ROOT}/docs/figures/{name}.png", f"file://{page}#picture"]
+            command += ["--window-size=1000,640", f"--user-data-dir={folder}/profile", f"--screenshot={ROOT}/docs/pictures/{name}.png", f"file://{page}#picture"]
             subprocess.run(command, check=True, capture_output=True)
 
 

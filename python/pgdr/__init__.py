@@ -13,6 +13,7 @@ fork(): use the start method "spawn" of multiprocessing.
 """
 from __future__ import annotations
 
+import operator
 import os
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
@@ -65,7 +66,7 @@ class Plc(_pgdr.Plc):
         super().__init__(
             points,
             facets,
-            markers=markers if markers is None else [int(m) for m in markers],
+            markers=markers if markers is None else [operator.index(m) for m in markers],
             regions=regions,
             holes=None if holes is None else np.atleast_2d(np.asarray(holes, dtype=float)),
             nesting=nesting,
@@ -194,7 +195,8 @@ class Mesh:
             return (name, corners) if len(nodes) == 0 else (f"{name}{'10' if name == 'tetra' else '6'}", np.hstack([corners, nodes]))
 
         none_t, none_f = np.zeros(len(self.tetrahedra), dtype=np.int32), np.zeros(len(self.triangles), dtype=np.int32)
-        names = {name: np.array([m, 2]) for m, name in self.marker_names.items()}
+        regions = set(self.region_names.values())
+        names = {f"{name}_surface" if name in regions else name: np.array([m, 2]) for m, name in self.marker_names.items()}
         names.update({name: np.array([r, 3]) for r, name in self.region_names.items()})
         return meshio.Mesh(
             self.points,
@@ -216,6 +218,8 @@ class Mesh:
 
 def _tolerance(plc: _pgdr.Plc, tolerance: float | str | None) -> float:
     """In units of length: a number, a part of the diagonal like "1e-4d", or what the program does."""
+    if not isinstance(tolerance, str) and tolerance is not None and not 0 <= tolerance < float("inf"):
+        raise ValueError("a tolerance has to be at least 0")
     if tolerance is None:
         return 1e-6 * plc.diagonal if plc.is_surface else 0.0
     if isinstance(tolerance, str):
@@ -344,6 +348,10 @@ def repair(plc: _pgdr.Plc, *, tolerance: float | str = "1e-6d", largest_hole: fl
     return _pgdr.repair(plc, tolerance=_tolerance(plc, tolerance), largest_hole=_tolerance(plc, largest_hole))
 
 
-def assemble(parts: Sequence[_pgdr.Plc], *, tolerance: float, largest_hole: float = 0.0) -> Plc:
-    """One complex of several bodies, a region each, numbered from 1 and called as they are; where they overlap, the later one has it."""
-    return _pgdr.assemble(list(parts), tolerance=tolerance, largest_hole=largest_hole)
+def assemble(parts: Sequence[_pgdr.Plc], *, tolerance: float | str = "1e-6d", largest_hole: float | str = 0.0) -> Plc:
+    """One complex of several bodies, a region each, numbered from 1 and called as they are; where they overlap, the later one has it.
+
+    Parts of the diagonal are those of the largest body.
+    """
+    largest = max(parts, key=lambda part: part.diagonal)
+    return _pgdr.assemble(list(parts), tolerance=_tolerance(largest, tolerance), largest_hole=_tolerance(largest, largest_hole))

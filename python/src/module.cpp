@@ -326,6 +326,10 @@ void add_errors(py::module_& m) {
       }
       error.attr("problems") = problems;
       PyErr_SetObject(input_error->ptr(), error.ptr());
+    } catch (const py::error_already_set&) {
+      throw;
+    } catch (const py::cast_error&) {
+      PyErr_SetString(PyExc_TypeError, "an argument, or something in it, has a type that cannot be used here: see help(pgdr)");
     } catch (const pgdr::Sizing_error& e) {
       PyErr_SetString(PyExc_ValueError, e.what());
     }
@@ -365,7 +369,10 @@ void add_plc(py::module_& m) {
       .def_property(
           "region_names", [](const Plc& plc) { return plc.names.regions; }, [](Plc& plc, Names names) { plc.names.regions = std::move(names); })
       .def("mark_patches", [](Plc& plc, double angle) { return pgdr::mark_patches(plc, angle); }, py::arg("angle"))
-      .def("write", [](const Plc& plc, const std::filesystem::path& path) { pgdr::write_poly(plc, path); }, py::arg("path"))
+      .def("write", [](const Plc& plc, const std::filesystem::path& path) {
+        if (path.extension() != ".poly") throw py::value_error("'" + path.string() + "' does not end in .poly");
+        pgdr::write_poly(plc, path);
+      }, py::arg("path"))
       .def("__repr__", [](const Plc& plc) {
         return "<pgdr.Plc of " + std::to_string(plc.vertices.size()) + " points, " + std::to_string(plc.facets.size()) + " facets>";
       });
@@ -430,7 +437,7 @@ void add_mesh(py::module_& m) {
             const auto lines = without_gil(0, [&] {
               std::optional<Domain> domain;
               if (plc) domain = pgdr::valid_domain(*plc, coplanar_tolerance);
-              return pgdr::check_mesh(mesh.arrays, domain ? &*domain : nullptr, options);
+              return pgdr::check_mesh(mesh.arrays.tetrahedron_nodes.empty() ? mesh.arrays : pgdr::without_midside_nodes(mesh.arrays), domain ? &*domain : nullptr, options);
             });
             std::vector<std::tuple<std::string, bool, std::string>> result;
             for (const auto& line : lines) result.emplace_back(line.property, line.passed, line.detail);

@@ -72,6 +72,14 @@ std::vector<Mesh_group> groups_of(const char* kind, std::size_t count, const std
   return groups;
 }
 
+/// Names of markers that are no names of regions: readers keep both in one list.
+inline std::map<int, std::string> marker_names_of(const Indexed_mesh_3& mesh) {
+  std::map<int, std::string> names = mesh.names.markers;
+  for (auto& [marker, name] : names)
+    if (std::ranges::any_of(mesh.names.regions, [&name = name](const auto& region) { return region.second == name; })) name += "_surface";
+  return names;
+}
+
 /// The tag of each element's group.
 inline std::vector<std::int32_t> tags_of(std::size_t count, const std::vector<std::int32_t>& references) {
   std::vector<std::int32_t> tags(count);
@@ -87,7 +95,7 @@ std::vector<Mesh_group> regions_of(const Indexed_mesh_3& mesh, const As_written&
 }
 template <class As_written>
 std::vector<Mesh_group> markers_of(const Indexed_mesh_3& mesh, const As_written& as_written) {
-  return groups_of("marker", mesh.triangles.size(), mesh.triangle_references, mesh.names.markers, as_written);
+  return groups_of("marker", mesh.triangles.size(), mesh.triangle_references, marker_names_of(mesh), as_written);
 }
 
 /// Elements with `N` corners and, in a mesh of second order, `M` nodes in the middle of their edges, in the order that a format wants.

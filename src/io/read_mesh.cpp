@@ -60,13 +60,14 @@ Indexed_mesh_3 read_vtu_mesh(const std::filesystem::path& path) {
     if (!(std::abs(value) <= std::numeric_limits<std::int32_t>::max()) || value != std::floor(value)) file.fail("cell " + std::to_string(cell) + " has a region or marker that is no 32-bit integer");
     return static_cast<std::int32_t>(value);
   };
-  constexpr double triangle = 5, tetrahedron = 10;  // VTK's types of cells
+  constexpr double triangle = 5, tetrahedron = 10, quadratic_triangle = 22, quadratic_tetrahedron = 24;  // VTK's types of cells
   double begin = 0;
   for (std::size_t cell = 0; cell < offsets.size(); begin = offsets[cell++]) {
-    const bool is_tetrahedron = types[cell] == tetrahedron;
-    if (!is_tetrahedron && types[cell] != triangle) continue;
-    const std::size_t corners = is_tetrahedron ? 4 : 3;
-    if (offsets[cell] - begin != static_cast<double>(corners) || !(begin >= 0) || !(offsets[cell] <= static_cast<double>(connectivity.size())))
+    const bool is_second_order = types[cell] == quadratic_tetrahedron || types[cell] == quadratic_triangle;
+    const bool is_tetrahedron = types[cell] == tetrahedron || types[cell] == quadratic_tetrahedron;
+    if (!is_tetrahedron && types[cell] != triangle && types[cell] != quadratic_triangle) continue;
+    const std::size_t corners = is_tetrahedron ? 4 : 3, nodes = is_second_order ? (is_tetrahedron ? 10 : 6) : corners;
+    if (offsets[cell] - begin != static_cast<double>(nodes) || !(begin >= 0) || !(offsets[cell] <= static_cast<double>(connectivity.size())))
       file.fail("cell " + std::to_string(cell) + " does not have the corners of its type");
     std::array<std::uint32_t, 4> c{};
     for (std::size_t k = 0; k < corners; ++k) {

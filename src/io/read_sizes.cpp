@@ -64,6 +64,8 @@ Nodal_values read_grid(const Vtk_xml& file, const std::string& array) {
 Nodal_values read_image(const Vtk_xml& file, const std::string& array) {
   const std::vector<double> extent = file.attribute_numbers("ImageData", "WholeExtent");
   if (extent.size() != 6) file.fail("its image has no extent");
+  const std::vector<double> direction = file.attribute_numbers("ImageData", "Direction");
+  if (!direction.empty() && direction != std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1}) file.fail("its image is turned (Direction), which is not read");
   std::vector<double> origin = file.attribute_numbers("ImageData", "Origin"), spacing = file.attribute_numbers("ImageData", "Spacing");
   origin.resize(3, 0);
   spacing.resize(3, 1);

@@ -70,4 +70,16 @@ void add_midside_nodes(Indexed_mesh_3& mesh) {
   for (const std::uint32_t n : mesh.edge_nodes) mesh.point_dimensions[n] = 1;
 }
 
+Indexed_mesh_3 without_midside_nodes(Indexed_mesh_3 mesh) {
+  std::uint32_t first = static_cast<std::uint32_t>(mesh.points.size());
+  for (const auto& nodes : mesh.tetrahedron_nodes) first = std::min(first, *std::ranges::min_element(nodes));
+  mesh.points.resize(first);
+  if (!mesh.point_references.empty()) mesh.point_references.resize(first);
+  if (!mesh.point_dimensions.empty()) mesh.point_dimensions.resize(first);
+  mesh.tetrahedron_nodes.clear();
+  mesh.triangle_nodes.clear();
+  mesh.edge_nodes.clear();
+  return mesh;
+}
+
 }  // namespace pgdr

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pgdr/io/abaqus.h>
@@ -31,17 +33,35 @@ char* put_real(char* out, double x) {
   return end - out <= most ? end : std::to_chars(out, out + io_detail::max_number_length, x, std::chars_format::scientific, 12).ptr;
 }
 
-template <std::size_t N, std::size_t M>
-void write_elements(Atomic_file& out, const char* type, const std::vector<io_detail::Mesh_group>& groups, const io_detail::Element_nodes<N, M>& elements,
-                    std::size_t& number) {
-  for (const io_detail::Mesh_group& g : groups) {
-    out.write(std::string("*ELEMENT, TYPE=") + type + ", ELSET=" + g.name + "\n");
-    io_detail::write_rows(out, g.elements.size(), 1 + N + M, [&](std::size_t first, std::size_t last, char* text) {
-      for (std::size_t i = first; i < last; ++i) text = put_char(io_detail::put_nodes(put_number(text, number + i), elements, g.elements[i], 1, ','), '\n');
-      return text;
-    });
-    number += g.elements.size();
+/// Each triangle as the side of a tetrahedron: which one, and the number that the format gives the side (S1 to S4).
+struct Side {
+  std::uint32_t tetrahedron = none;
+  int number = 0;
+  static constexpr std::uint32_t none = 0xffffffffu;
+};
+
+std::vector<Side> sides_of(const Indexed_mesh_3& mesh) {
+  using Corners = std::array<std::uint32_t, 3>;
+  const auto sorted = [](Corners c) {
+    std::ranges::sort(c);
+    return c;
+  };
+  std::vector<std::pair<Corners, std::uint32_t>> triangles;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) triangles.emplace_back(sorted(mesh.triangles[i]), i);
+  std::ranges::sort(triangles);
+  std::vector<Side> sides(triangles.size());
+  constexpr int number_opposite_of[4] = {3, 4, 2, 1};  // S1 has the first three corners, S2 1 4 2, S3 2 4 3, S4 3 4 1
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const auto& c = mesh.tetrahedra[t];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Corners face = sorted({c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4]});
+      const auto found = std::ranges::lower_bound(triangles, std::pair(face, std::uint32_t{0}));
+      if (found == triangles.end() || found->first != face) continue;
+      Side& side = sides[found->second];
+      if (side.tetrahedron == Side::none) side = {t, number_opposite_of[k]};
+    }
   }
+  return sides;
 }
 
 }  // namespace
@@ -58,10 +78,23 @@ void write_abaqus(const Indexed_mesh_3& mesh, const std::filesystem::path& path)
     }
     return text;
   });
-  std::size_t number = 1;
-  const bool is_second_order = !mesh.tetrahedron_nodes.empty();
-  write_elements(out, is_second_order ? "C3D10" : "C3D4", io_detail::regions_of(mesh, set_name), io_detail::tetrahedra_of(mesh, io_detail::edges_in_vtk), number);
-  write_elements(out, is_second_order ? "STRI65" : "S3", io_detail::markers_of(mesh, set_name), io_detail::triangles_of(mesh), number);
+  const auto tetrahedra = io_detail::tetrahedra_of(mesh, io_detail::edges_in_vtk);
+  std::vector<std::uint32_t> numbers(mesh.tetrahedra.size());
+  std::uint32_t number = 0;
+  for (const io_detail::Mesh_group& g : io_detail::regions_of(mesh, set_name)) {
+    out.write(std::string("*ELEMENT, TYPE=") + (mesh.tetrahedron_nodes.empty() ? "C3D4" : "C3D10") + ", ELSET=" + g.name + "\n");
+    for (const std::uint32_t i : g.elements) numbers[i] = ++number;
+    io_detail::write_rows(out, g.elements.size(), 1 + 10, [&](std::size_t first, std::size_t last, char* text) {
+      for (std::size_t i = first; i < last; ++i) text = put_char(io_detail::put_nodes(put_number(text, numbers[g.elements[i]]), tetrahedra, g.elements[i], 1, ','), '\n');
+      return text;
+    });
+  }
+  const std::vector<Side> sides = sides_of(mesh);
+  for (const io_detail::Mesh_group& g : io_detail::markers_of(mesh, set_name)) {
+    out.write("*SURFACE, TYPE=ELEMENT, NAME=" + g.name + "\n");
+    for (const std::uint32_t i : g.elements)
+      if (sides[i].tetrahedron != Side::none) out.write(std::to_string(numbers[sides[i].tetrahedron]) + ",S" + std::to_string(sides[i].number) + "\n");
+  }
   out.commit();
 }
 

@@ -40,18 +40,16 @@ std::vector<std::filesystem::path> tetgen_files(const std::filesystem::path& pat
 void write_tetgen(const Indexed_mesh_3& mesh, const std::filesystem::path& path) {
   const std::vector<std::filesystem::path> files = tetgen_files(path);
   Atomic_file ele(files[0]), node(files[1]), face(files[2]), edge(files[3]);
-  const auto corners_of = [](const auto& elements) {
-    return [&elements](char* text, std::size_t i) {
-      for (const std::uint32_t v : elements[i]) text = put_number(put_char(text, ' '), v);
-      return text;
-    };
-  };
   const auto tetrahedra = io_detail::tetrahedra_of(mesh, io_detail::edges_in_tetgen);
   write_items(node, mesh.points.size(), " 3 0 1", mesh.point_references, [&](char* text, std::size_t i) { return io_detail::put_point(text, mesh, i, ' '); });
   write_items(ele, tetrahedra.size(), " " + std::to_string(tetrahedra.nodes_of_each()) + " 1", mesh.tetrahedron_references,
               [&](char* text, std::size_t i) { return io_detail::put_nodes(text, tetrahedra, i, 0, ' '); });
-  write_items(face, mesh.triangles.size(), " 1", mesh.triangle_references, corners_of(mesh.triangles));
-  write_items(edge, mesh.edges.size(), " 1", mesh.edge_references, corners_of(mesh.edges));
+  const auto triangles = io_detail::triangles_of(mesh);
+  write_items(face, triangles.size(), " 1", mesh.triangle_references, [&](char* text, std::size_t i) { return io_detail::put_nodes(text, triangles, i, 0, ' '); });
+  write_items(edge, mesh.edges.size(), " 1", mesh.edge_references, [&](char* text, std::size_t i) {
+    for (const std::uint32_t v : mesh.edges[i]) text = put_number(put_char(text, ' '), v);
+    return mesh.edge_nodes.empty() ? text : put_number(put_char(text, ' '), mesh.edge_nodes[i]);
+  });
   for (Atomic_file* f : {&node, &ele, &face, &edge}) f->commit();
 }
 

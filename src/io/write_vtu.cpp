@@ -153,7 +153,7 @@ class Vtu_writer {
     };
     if (mesh_.names.regions.empty() && mesh_.names.markers.empty()) return;
     out_.write("<FieldData>\n");
-    write_kind(mesh_.names.markers, 2);
+    write_kind(io_detail::marker_names_of(mesh_), 2);
     write_kind(mesh_.names.regions, 3);
     out_.write("</FieldData>\n");
   }
@@ -210,7 +210,7 @@ class Vtu_writer {
   template <class Row, class Tetrahedron, class Triangle>
   void append_by_kind(const Data_array& array, const Tetrahedron& tetrahedron, const Triangle& triangle) {
     const std::size_t n = tetrahedra_.size();
-    append<Row>(array, cells_, [&](std::size_t i) { return static_cast<Row>(i < n ? tetrahedron(i) : triangle(i - n)); });
+    append<Row>(array, cells_, [&](std::size_t i) { return i < n ? static_cast<Row>(tetrahedron(i)) : static_cast<Row>(triangle(i - n)); });
   }
 
   /// Appends the rows `row(0)`, ..., `row(count - 1)` block by block, behind the sizes of the blocks. The blocks are

@@ -80,6 +80,7 @@ bool fill(Soup& soup, const Hole& hole, Repair_report& report) {
   for (const Corners& c : patch) {
     Triangle filling = soup.triangles[hole.triangle];
     filling.corners = c;
+    filling.marker = 0;  // it is part of no patch
     soup.triangles.push_back(filling);
   }
   ++report.filled_holes;

@@ -50,6 +50,9 @@ Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_r
   close_cracks(soup, tolerance, report);
   orient_shells(soup, report);
   const std::vector<Hole> holes = fill_holes(soup, options.largest_hole / unit, report);
+  if (parts.size() > 1)
+    for (Triangle& t : soup.triangles)
+      if (t.marker == 0) t.marker = static_cast<int>(t.part) + 1;
   const auto pairs = meeting_pairs(soup);
   report.intersecting_pairs = pairs.size();
   if (report.is_none() && holes.empty() && parts.size() == 1) return parts[0];
@@ -69,31 +72,57 @@ Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_r
   return plc;
 }
 
-/// Gives facets without a marker that of their part, and those whose marker stands for a name of their part's, numbers that nobody else has.
-/// Returns what all are called.
+/// Gives facets without a marker that of their part. Those whose marker stands for a name of their part's, or is somebody else's number too, get numbers
+/// that nobody else has, and names. Returns what all are called.
 Reference_names mark_parts(std::vector<Plc>& parts) {
-  std::set<int> taken;
+  const int count = static_cast<int>(parts.size());
+  const auto markers_of = [](const Plc& part) {
+    std::set<int> markers;
+    for (const auto& facet : part.facets) markers.insert(facet.marker);
+    markers.erase(0);
+    return markers;
+  };
+  std::map<int, std::size_t> users;  // of numbers that mean something to the user
   for (const Plc& part : parts)
-    for (const auto& facet : part.facets)
-      if (!part.names.markers.contains(facet.marker)) taken.insert(facet.marker);
-  int last = static_cast<int>(parts.size());
+    for (const int m : markers_of(part))
+      if (!part.names.markers.contains(m)) ++users[m];
   Reference_names names;
+  int last = count;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Plc& part = parts[p];
     const int own = static_cast<int>(p) + 1;
     if (!part.name.empty()) names.markers[own] = names.regions[own] = part.name;
     std::map<int, int> marker{{0, own}};
-    for (const auto& [named, name] : part.names.markers)
-      if (named != 0) {
-        do ++last;
-        while (taken.contains(last));
-        marker[named] = last;
-        names.markers[last] = part.name.empty() ? name : part.name + ":" + name;
-      }
+    for (const int m : markers_of(part)) {
+      const auto named = part.names.markers.find(m);
+      const bool is_named = named != part.names.markers.end();
+      if (!is_named && users[m] == 1 && (m < 1 || m > count)) continue;
+      do ++last;
+      while (users.contains(last));
+      marker[m] = last;
+      const std::string name = is_named ? named->second : std::to_string(m);
+      names.markers[last] = part.name.empty() ? name : part.name + ":" + name;
+    }
     for (auto& facet : part.facets)
       if (const auto found = marker.find(facet.marker); found != marker.end()) facet.marker = found->second;
   }
   return names;
+}
+
+/// What is inside a part is told by its surface alone: a part with volumes of its own would lose some of them.
+void require_surface(const Plc& part) {
+  bool is_divided = !part.regions.empty() || !part.holes.empty();
+  if (part.nesting == Nesting::fill && !is_divided) {
+    std::map<std::pair<Index, Index>, int> sides;
+    for (const auto& facet : part.facets)
+      for (const auto& polygon : facet.polygons)
+        for (std::size_t i = 0; i < polygon.size() && polygon.size() > 2; ++i) {
+          const Index a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+          is_divided |= ++sides[{std::min(a, b), std::max(a, b)}] > 2;
+        }
+  }
+  if (is_divided)
+    throw Input_error(Input_problem::Kind::open_surface, "'" + part.name + "' has regions, holes or facets inside, and the parts of an assembly are closed surfaces: make it the only input");
 }
 
 }  // namespace
@@ -118,6 +147,7 @@ Plc assemble(std::span<const Plc> parts, const Repair_options& options, Repair_r
   Repair_report& done = report ? *report : ignored;
   done = {};
   if (parts.empty()) throw Input_error(Input_problem::Kind::empty, "an assembly of no parts");
+  for (const Plc& part : parts) require_surface(part);
   std::vector<Plc> marked(parts.begin(), parts.end());
   const Reference_names names = mark_parts(marked);
   Plc result = repaired(marked, options, done);

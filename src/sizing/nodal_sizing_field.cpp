@@ -31,6 +31,8 @@ Nodal_sizing_field::Nodal_sizing_field(const std::vector<Point>& points, const s
   if (points.size() != values.size() || points.empty())
     throw std::invalid_argument("there are " + std::to_string(points.size()) + " points with sizes and " + std::to_string(values.size()) + " values");
   if (!std::ranges::all_of(values, [](double v) { return v > 0 && std::isfinite(v); })) throw std::invalid_argument("the sizes at points have to be positive and finite");
+  for (const Point& p : points)
+    if (!std::ranges::all_of(p, [](double x) { return std::isfinite(x); })) throw std::invalid_argument("the coordinates of points with sizes have to be finite");
   std::vector<std::pair<Kernel::Point_3, double>> nodes;
   nodes.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) nodes.emplace_back(Kernel::Point_3(points[i][0], points[i][1], points[i][2]), values[i]);

@@ -61,7 +61,7 @@ TEST_CASE("meshes with groups read into meshio, in all formats that have some") 
     CHECK(read_back(folder / "a.msh", mesh, " --group region_1:tetra:1 2>/dev/null") == 1);
   }
   pgdr::write_mesh(mesh, folder / "a.inp");
-  CHECK(read_back(folder / "a.inp", mesh, with_triangles) == 0);
+  CHECK(read_back(folder / "a.inp", mesh, groups) == 0);
   pgdr::write_mesh(mesh, folder / "a.ele");
   CHECK(read_back(folder / "a.ele", mesh, groups) == 0);
   pgdr::write_mesh(mesh, folder / "a.su2");
@@ -81,8 +81,11 @@ TEST_CASE("groups have the names that regions and markers have, as far as a form
   const int code = read_back(folder / "a.msh", mesh, regions + group("the _inlet_", "triangle", triangles.at(7)));
   if (code == 77) PGDR_SKIP("python3-meshio is not installed");
   CHECK(code == 0);
+  mesh.names.markers[2147483647] = "steel";  // a region's, too
   pgdr::write_mesh(mesh, folder / "a.inp");
-  CHECK(read_back(folder / "a.inp", mesh, regions + group("the__inlet_", "triangle", triangles.at(7))) == 0);
+  CHECK(text_of(folder / "a.inp").find("NAME=steel_surface\n") != std::string::npos);
+  CHECK(read_back(folder / "a.inp", mesh, regions) == 0);
+  CHECK(text_of(folder / "a.inp").find("NAME=the__inlet_\n") != std::string::npos);
   pgdr::write_mesh(mesh, folder / "a.su2");
   CHECK(text_of(folder / "a.su2").find("MARKER_TAG= the__inlet_\n") != std::string::npos);
   pgdr::Write_options options;
@@ -135,6 +138,23 @@ TEST_CASE("TetGen's files hold points, tetrahedra, faces and edges with what the
   check("a.ele", 4, mesh.tetrahedra, mesh.tetrahedron_references);
   check("a.face", 3, mesh.triangles, mesh.triangle_references);
   check("a.edge", 2, mesh.edges, mesh.edge_references);
+}
+
+TEST_CASE("the surfaces of an Abaqus deck are sides of tetrahedra") {
+  const pgdr_test::Temporary_folder folder;
+  pgdr::Indexed_mesh_3 mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  mesh.tetrahedra = {{0, 1, 2, 3}, {1, 3, 2, 4}};
+  mesh.tetrahedron_references = {7, 4};  // so that the second one is written first
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {1, 4, 2}};
+  mesh.triangle_references = {1, 1, 2, 1, 3};
+  pgdr::write_mesh(mesh, folder / "a.inp");
+  const std::string text = text_of(folder / "a.inp");
+  CHECK(text.find("ELSET=region_4\n1,2,4,3,5\n") != std::string::npos);
+  CHECK(text.find("ELSET=region_7\n2,1,2,3,4\n") != std::string::npos);
+  CHECK(text.find("NAME=marker_1\n2,S1\n2,S2\n2,S4\n") != std::string::npos);
+  CHECK(text.find("NAME=marker_2\n2,S3\n") != std::string::npos);
+  CHECK(text.find("NAME=marker_3\n1,S4\n") != std::string::npos);
 }
 
 TEST_CASE("no number of an Abaqus deck has more than 20 characters, and all read back to 13 digits") {

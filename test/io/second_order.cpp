@@ -79,7 +79,8 @@ TEST_CASE("meshes of second order read back with their nodes in the middle of ed
     INFO(name);
     options.gmsh = name[0] == 'b' ? pgdr::Gmsh_format::binary_4_1 : name[0] == 'c' ? pgdr::Gmsh_format::ascii_4_1 : pgdr::Gmsh_format::ascii_2_2;
     pgdr::write_mesh(mesh, folder / name, options);
-    const int code = pgdr_test::read_back(folder / name, mesh.points.size(), mesh.tetrahedra.size(), " --order 2 --triangles " + std::to_string(mesh.triangles.size()));
+    const int code = pgdr_test::read_back(folder / name, mesh.points.size(), mesh.tetrahedra.size(),
+                                          " --order 2" + (name == std::string("a.inp") ? "" : " --triangles " + std::to_string(mesh.triangles.size())));
     if (code == 77) PGDR_SKIP("python3-meshio is not installed");
     CHECK(code == 0);
   }

@@ -86,6 +86,7 @@ def test_order_2():
     mesh = pgdr.mesh(CORNERS, SIDES, size=0.3, order=2)
     middle = (mesh.points[mesh.tetrahedra[:, 1]] + mesh.points[mesh.tetrahedra[:, 3]]) / 2
     assert abs(middle - mesh.points[mesh.tetrahedron_nodes[:, 4]]).max() == 0
+    assert all(passed for _, passed, _ in mesh.check())
 
 
 def test_files():
@@ -125,6 +126,11 @@ def test_errors():
         pgdr.mesh(CORNERS, [[0, 1, 99]])
     with pytest.raises(ValueError):
         pgdr.mesh(CORNERS[:, :2], SIDES)
+    for arguments in ({"size": "0.1"}, {"markers": [1.5] * 6}, {"regions": [(0.5, 0.5, 0.5)]}, {"facet_sizes": {0: "fine"}}):
+        with pytest.raises(TypeError):
+            pgdr.mesh(CORNERS, SIDES, **arguments)
+    with pytest.raises(ValueError):
+        pgdr.mesh(CORNERS, SIDES, tolerance=-1)
     with pytest.raises(TypeError):
         pgdr.mesh(CORNERS)
 

@@ -263,6 +263,33 @@ TEST_CASE("the regions and markers of an assembly are called as its parts are") 
   CHECK(markers == std::set<int>{1, 2, 3, 4});
 }
 
+TEST_CASE("numbers that two parts of an assembly use are told apart, and parts that are no surfaces are refused") {
+  std::vector<Plc> parts{as_surface(box({0, 0, 0}, {1, 1, 1})), as_surface(box({3, 0, 0}, {4, 1, 1}))};
+  parts[0].name = "a";
+  parts[1].name = "b";
+  parts[0].facets[0].marker = 9;
+  parts[1].facets[0].marker = 1;
+  parts[1].facets[1].marker = 9;
+  const Plc plc = assemble(parts, {tolerance, 0});
+  CHECK(plc.names.markers == std::map<int, std::string>{{1, "a"}, {2, "b"}, {3, "a:9"}, {4, "b:1"}, {5, "b:9"}});
+  parts[1].nesting = Nesting::fill;
+  CHECK(assemble(parts, {tolerance, 0}).facets.size() == plc.facets.size());
+  parts[1].regions.push_back({{3.5, 0.5, 0.5}, 1, 0, 0});
+  CHECK_THROWS_AS(assemble(parts, {tolerance, 0}), Input_error);
+  parts[1].regions.clear();
+  parts[1].facets.push_back(parts[1].facets[0]);  // something inside, or twice
+  CHECK_THROWS_AS(assemble(parts, {tolerance, 0}), Input_error);
+}
+
+TEST_CASE("a hole that was filled is part of no patch") {
+  Plc plc = as_surface(box());
+  for (Facet& f : plc.facets) f.marker = 5;
+  plc.facets.pop_back();
+  std::set<int> markers;
+  for (const auto& facet : repair(plc, {tolerance, 2}).facets) markers.insert(facet.marker);
+  CHECK(markers == std::set<int>{0, 5});
+}
+
 TEST_CASE("repaired surfaces keep markers and seeds") {
   Plc plc = box();
   add_box(plc, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}, 5);

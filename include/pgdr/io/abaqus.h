@@ -8,8 +8,8 @@
 
 namespace pgdr {
 
-/// Writes tetrahedra (`C3D4`, of second order `C3D10`), and triangles on facets (`S3`, `STRI65`), as an Abaqus input deck, as CalculiX reads it, too: nodes and elements without material, steps or
-/// loads. Coordinates take at most 20 characters, all that such a deck may have: some are rounded to 13 digits. Element sets have the names of regions and markers, as far as sets may, else "region_ID" and "marker_M". Numbers are from 1, those of the triangles behind those of the tetrahedra.
+/// Writes tetrahedra (`C3D4`, of second order `C3D10`), and surfaces by marker, as an Abaqus input deck, as CalculiX reads it, too: nodes and elements without material, steps or
+/// loads. Coordinates take at most 20 characters, all that such a deck may have: some are rounded to 13 digits. Element sets have the names of regions, surfaces (sides of tetrahedra) those of markers, as far as sets may, else "region_ID" and "marker_M". Numbers are from 1.
 /// Throws `Output_error`; the file appears complete or not at all.
 void write_abaqus(const Indexed_mesh_3& mesh, const std::filesystem::path& path);
 

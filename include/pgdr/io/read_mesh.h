@@ -14,8 +14,8 @@ namespace pgdr {
 /// The extensions that `read_mesh` knows: `.mesh` and `.vtu`.
 const std::vector<std::string>& readable_mesh_extensions();
 
-/// Reads tetrahedra, with the triangles, edges, markers, regions and names that the file has: Medit's ASCII format (`read_medit`), or VTK's unstructured grids (linear
-/// tetrahedra and triangles; cell data `region` and `marker`, or `attribute`; other cells are left out).
+/// Reads tetrahedra, with the triangles, edges, markers, regions and names that the file has: Medit's ASCII format (`read_medit`), or VTK's unstructured grids (tetrahedra and triangles, of
+/// those of second order the corners; cell data `region` and `marker`, or `attribute`; other cells are left out).
 /// Throws `Input_error`.
 Indexed_mesh_3 read_mesh(const std::filesystem::path& path);
 

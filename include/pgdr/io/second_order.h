@@ -13,6 +13,9 @@ namespace pgdr {
 /// Throws `std::length_error` for a mesh whose nodes cannot be numbered.
 void add_midside_nodes(Indexed_mesh_3& mesh);
 
+/// The mesh as it was before it got them.
+Indexed_mesh_3 without_midside_nodes(Indexed_mesh_3 mesh);
+
 }  // namespace pgdr
 
 #endif

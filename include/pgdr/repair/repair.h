@@ -51,7 +51,8 @@ Plc repair(const Plc& plc, const Repair_options& options, Repair_report* report 
 
 /// The same with several parts of an assembly, each of which becomes a region: they share triangles where they touch. Where parts overlap, the
 /// later one owns the overlap. Facets get the position of their part, from 1, as their marker, where they have none, regions as their id; both
-/// are called as the part is. Markers that have names, as those of surface files, may get other numbers.
+/// are called as the part is. Markers that have names, as those of surface files, or that two parts use, get other numbers, and names
+/// with that of the part. Throws `Input_error` also for a part with regions, holes or facets inside.
 Plc assemble(std::span<const Plc> parts, const Repair_options& options, Repair_report* report = nullptr);
 
 }  // namespace pgdr

@@ -11,7 +11,7 @@
 namespace pgdr {
 
 /// A sizing field from values at any points, such as the nodes of a mesh on which an error was estimated: linear in the tetrahedra of the points'
-/// Delaunay triangulation; outside of their convex hull, the value at the nearest of them.
+/// Delaunay triangulation; outside of their convex hull, and where all points lie in a plane, the value at the nearest of them.
 ///
 /// The tetrahedra are found by exact predicates, values by double arithmetic, the same on every thread. Copies share the triangulation.
 class Nodal_sizing_field {
