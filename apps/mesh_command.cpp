@@ -216,19 +216,19 @@ void check_outputs(const Mesh_arguments& arguments) {
 
 /// By the files as they are, whatever was taken away or repaired. Of an assembly: by all files, whose facets are counted on.
 void find_facets_of_files(Indexed_mesh_3& mesh, const Mesh_arguments& arguments) {
-  Plc all;
-  for (const std::string& file : arguments.inputs) {
-    const Plc part = normalized(read_plc(file));
-    if (all.facets.empty()) all.first_index = part.first_index, all.exponent = part.exponent;
-    const Index first = static_cast<Index>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
-    for (Plc_facet<Default_kernel> facet : part.facets) {
-      for (auto& polygon : facet.polygons)
-        for (Index& v : polygon) v += first;
-      all.facets.push_back(std::move(facet));
-    }
-  }
   try {
+    Plc all;
+    for (const std::string& file : arguments.inputs) {
+      const Plc part = normalized(read_plc(file));
+      if (all.facets.empty()) all.first_index = part.first_index, all.exponent = part.exponent;
+      const Index first = static_cast<Index>(all.vertices.size());
+      all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+      for (Plc_facet<Default_kernel> facet : part.facets) {
+        for (auto& polygon : facet.polygons)
+          for (Index& v : polygon) v += first;
+        all.facets.push_back(std::move(facet));
+      }
+    }
     find_input_facets(mesh, all);
   } catch (const Input_error& error) {
     print_message(std::string("warning: triangles are written without the input's facets: ") + error.what());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -313,7 +314,7 @@ void require_page(const std::string& option) {
 }
 
 void write_report(const Indexed_mesh_3& mesh, const Report& report, const std::filesystem::path& path) {
-  std::string data = page_data(mesh, report).dump();
+  std::string data = page_data(mesh, report).dump(-1, ' ', false, json::error_handler_t::replace);
   for (std::size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3) data.replace(at, 2, "<\\/");  // ends no script
   Atomic_file file(path);
   file.write("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>pgdr</title>\n<style>\n");

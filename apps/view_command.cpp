@@ -2,12 +2,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include <pgdr/domain/input_error.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/read_mesh.h>
 #include <pgdr/mesh/scale_mesh.h>

@@ -18,7 +18,7 @@ if(TARGET pgdr-app)
     install(FILES ${PROJECT_BINARY_DIR}/completions/pgdr.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
   endif()
   if(PGDR_HELP2MAN)
-    foreach(command IN ITEMS "" mesh check info)
+    foreach(command IN ITEMS "" mesh check info view)
       string(REGEX REPLACE "-$" "" name pgdr-${command})
       set(page ${PROJECT_BINARY_DIR}/man/${name}.1)
       add_custom_command(OUTPUT ${page} DEPENDS pgdr-app VERBATIM

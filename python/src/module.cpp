@@ -237,7 +237,7 @@ Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet
   if (p.max_memory == 0) p.max_memory = pgdr::attainable_memory_bytes().value_or(0) / 10 * 9;
   std::vector<pgdr::Input_problem> warnings;
   const Domain domain = without_gil(threads, [&] {
-    const Plc plc = simplified(pgdr::normalized(input), std::ldexp(tolerance, -pgdr::exponent_for(input)), p.coplanar_tolerance);
+    const Plc plc = simplified(pgdr::normalized(input), tolerance, p.coplanar_tolerance);
     return pgdr::valid_domain(plc, p.coplanar_tolerance, p.triangulate_facets, &warnings);
   });
   for (const pgdr::Input_problem& problem : warnings)
@@ -361,7 +361,7 @@ void add_plc(py::module_& m) {
                                for (const auto& f : plc.facets) markers.push_back(f.marker);
                                return py::array_t<int>(static_cast<py::ssize_t>(markers.size()), markers.data());
                              })
-      .def_property_readonly("diagonal", [](const Plc& plc) { return pgdr::unit_of(plc) * pgdr::bounding_diagonal(plc); })
+      .def_property_readonly("diagonal", [](const Plc& plc) { return pgdr::bounding_diagonal(plc); })
       .def_property_readonly("is_surface", [](const Plc& plc) { return plc.nesting == pgdr::Nesting::alternate; })
       .def_readwrite("name", &Plc::name)
       .def_property(

@@ -22,7 +22,7 @@ inline std::string color_name(const std::array<double, 3>& rgb) {
   constexpr const char* digits = "0123456789abcdef";
   std::string name = "#";
   for (const double x : rgb) {
-    const auto level = static_cast<unsigned>(std::clamp(x + 0.5, 0.0, 255.0));
+    const auto level = static_cast<unsigned>(x > 0 ? std::min(x + 0.5, 255.0) : 0.0);
     name += digits[level / 16];
     name += digits[level % 16];
   }
@@ -61,24 +61,21 @@ class Facet_groups {
     const bool is_one = used.size() == 1;
     if (used.size() > 1)
       for (std::size_t f = 0; f < plc.facets.size(); ++f) plc.facets[f].marker = marker[of_facet_[f]];
+    const bool by_first = tells_apart(&Name::first, used), by_second = tells_apart(&Name::second, used);
     for (const std::uint32_t g : used)
-      if (std::string name = shown(g, used); !name.empty()) plc.names.markers[is_one ? 0 : marker[g]] = std::move(name);
+      if (std::string name = by_first ? names_[g].first : by_second ? names_[g].second : both(names_[g]); !name.empty()) plc.names.markers[is_one ? 0 : marker[g]] = std::move(name);
   }
 
  private:
-  /// The part that tells all groups apart, or both.
-  std::string shown(std::uint32_t group, const std::vector<std::uint32_t>& used) const {
-    const auto tells_apart = [&](std::string Name::*part) {
-      std::set<std::string> values;
-      for (const std::uint32_t g : used)
-        if ((names_[g].*part).empty() || !values.insert(names_[g].*part).second) return false;
-      return true;
-    };
-    const auto& [first, second] = names_[group];
-    if (tells_apart(&Name::first)) return first;
-    if (tells_apart(&Name::second)) return second;
-    return first.empty() || second.empty() ? first + second : first + ":" + second;
+  /// Whether one part of their names tells all groups apart.
+  bool tells_apart(std::string Name::*part, const std::vector<std::uint32_t>& used) const {
+    std::set<std::string> values;
+    for (const std::uint32_t g : used)
+      if ((names_[g].*part).empty() || !values.insert(names_[g].*part).second) return false;
+    return true;
   }
+
+  static std::string both(const Name& name) { return name.first.empty() || name.second.empty() ? name.first + name.second : name.first + ":" + name.second; }
 
   std::map<Name, std::uint32_t> groups_;
   std::vector<Name> names_;

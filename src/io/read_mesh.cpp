@@ -13,6 +13,8 @@
 #include <vector>
 
 #include <pgdr/domain/input_error.h>
+#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/volumes_3.h>
 #include <pgdr/io/medit.h>
 #include <pgdr/parallel/parallel_sort.h>
 #include <pgdr/quality/measures.h>
@@ -106,7 +108,6 @@ class Plc_builder {
 
   Plc build() {
     plc_.exponent = mesh_.exponent;
-    plc_.nesting = Nesting::alternate;  // holes have no tetrahedra, and are told by their depth
     plc_.names = mesh_.names;
     number_points();
     std::vector<std::array<std::uint32_t, 3>> listed;
@@ -119,6 +120,7 @@ class Plc_builder {
     for (std::size_t i = 0; i < mesh_.edges.size(); ++i)
       plc_.segments.push_back({number_[mesh_.edges[i][0]], number_[mesh_.edges[i][1]], io_detail::reference_of(mesh_.edge_references, i)});
     add_seeds();
+    add_holes();
     return std::move(plc_);
   }
 
@@ -204,6 +206,16 @@ class Plc_builder {
       seed.point = {center[0], center[1], center[2]};
       seed.id = region(largest);
       plc_.regions.push_back(seed);
+    }
+  }
+
+  /// In volumes that have no tetrahedra.
+  void add_holes() {
+    const Domain_3<Default_kernel> domain = make_domain_3(plc_, 0.0, true);
+    const Volumes_3<Default_kernel> volumes(domain);
+    for (std::size_t v = 1; v < volumes.volumes().size(); ++v) {
+      if (volumes.volumes()[v].has_region) continue;
+      if (const auto p = volumes.interior_point(v)) plc_.holes.emplace_back(p->x, p->y, p->z);
     }
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/io/read_sizes.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -63,7 +65,8 @@ Nodal_values read_grid(const Vtk_xml& file, const std::string& array) {
 
 Nodal_values read_image(const Vtk_xml& file, const std::string& array) {
   const std::vector<double> extent = file.attribute_numbers("ImageData", "WholeExtent");
-  if (extent.size() != 6) file.fail("its image has no extent");
+  constexpr double most = 1 << 30;
+  if (extent.size() != 6 || !std::ranges::all_of(extent, [](double e) { return std::abs(e) <= most && e == std::floor(e); })) file.fail("its image has no extent of whole numbers");
   const std::vector<double> direction = file.attribute_numbers("ImageData", "Direction");
   if (!direction.empty() && direction != std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1}) file.fail("its image is turned (Direction), which is not read");
   std::vector<double> origin = file.attribute_numbers("ImageData", "Origin"), spacing = file.attribute_numbers("ImageData", "Spacing");

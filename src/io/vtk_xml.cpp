@@ -243,6 +243,7 @@ std::vector<double> Vtk_xml::decoded(Bytes bytes, std::string_view type) const {
       const std::uint64_t size = b + 1 == blocks && last_size > 0 ? last_size : block_size;
       constexpr std::uint64_t most = std::uint64_t{1} << 30;
       if (size > most) fail_short();
+      if (header_number(header, 3 + b) > packed.size() - at) fail_short();
       const std::size_t old = data.size();
       data.resize(old + size);
       uLongf length = size;

@@ -19,6 +19,7 @@
 #include <pgdr/mesh_domain.h>
 
 #include "../catch.h"
+#include "domain/shapes.h"
 #include "../inputs.h"
 #include "sample_mesh.h"
 #include "temporary_folder.h"
@@ -73,6 +74,18 @@ TEST_CASE("a mesh that is read and meshed again within the same bounds is the sa
     const std::set<std::array<double, 3>> points(finer.points.begin(), finer.points.end());
     for (const auto& p : mesh.points) CHECK(points.contains(p));
   }
+}
+
+TEST_CASE("a void inside a region inside a region stays one") {
+  pgdr::Plc plc = pgdr_test::box({0, 0, 0}, {3, 3, 3});
+  pgdr_test::add_box(plc, {0.75, 0.75, 0.75}, {2.25, 2.25, 2.25});
+  pgdr_test::add_box(plc, {1.25, 1.25, 1.25}, {1.75, 1.75, 1.75});
+  plc.regions = {{{0.1, 0.1, 0.1}, 1, 0, 0}, {{1, 1, 1}, 2, 0, 0}};
+  plc.holes = {{1.5, 1.5, 1.5}};
+  const pgdr::Indexed_mesh_3 mesh = meshed(plc, 1);
+  const pgdr_test::Temporary_folder folder;
+  pgdr::write_mesh(mesh, folder / "a.mesh");
+  CHECK(counts(meshed(pgdr::read_plc(folder / "a.mesh"), 1).tetrahedron_references) == counts(mesh.tetrahedron_references));
 }
 
 TEST_CASE("a mesh that makes no sense is refused") {
