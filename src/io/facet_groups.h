@@ -17,6 +17,26 @@
 
 namespace pgdr::io_detail {
 
+/// A name as UTF-8, which outputs are written in: one that is not is taken for Latin-1.
+inline std::string as_utf8(const std::string& name) {
+  bool is_valid = true;
+  for (std::size_t i = 0; i < name.size() && is_valid;) {
+    const auto byte = [&](std::size_t k) { return k < name.size() ? static_cast<unsigned char>(name[k]) : 0u; };
+    const std::size_t length = byte(i) < 0x80 ? 1 : byte(i) < 0xc2 ? 0 : byte(i) < 0xe0 ? 2 : byte(i) < 0xf0 ? 3 : byte(i) < 0xf5 ? 4 : 0;
+    is_valid = length > 0;
+    for (std::size_t k = 1; k < length; ++k) is_valid = is_valid && (byte(i + k) & 0xc0) == 0x80;
+    i += length;
+  }
+  if (is_valid) return name;
+  std::string text;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) text += static_cast<char>(0xc0 | byte >> 6);
+    text += static_cast<char>(byte < 0x80 ? byte : 0x80 | (byte & 0x3f));
+  }
+  return text;
+}
+
 /// "#ff8000", of red, green and blue from 0 to 255.
 inline std::string color_name(const std::array<double, 3>& rgb) {
   constexpr const char* digits = "0123456789abcdef";
@@ -63,7 +83,7 @@ class Facet_groups {
       for (std::size_t f = 0; f < plc.facets.size(); ++f) plc.facets[f].marker = marker[of_facet_[f]];
     const bool by_first = tells_apart(&Name::first, used), by_second = tells_apart(&Name::second, used);
     for (const std::uint32_t g : used)
-      if (std::string name = by_first ? names_[g].first : by_second ? names_[g].second : both(names_[g]); !name.empty()) plc.names.markers[is_one ? 0 : marker[g]] = std::move(name);
+      if (std::string name = by_first ? names_[g].first : by_second ? names_[g].second : both(names_[g]); !name.empty()) plc.names.markers[is_one ? 0 : marker[g]] = as_utf8(name);
   }
 
  private:

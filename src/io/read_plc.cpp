@@ -41,7 +41,7 @@ Plc read_any(const std::filesystem::path& path, Markers_from markers) {
 
 Plc read_plc(const std::filesystem::path& path, Markers_from markers) {
   Plc plc = read_any(path, markers);
-  plc.name = path.stem().string();
+  plc.name = io_detail::as_utf8(path.stem().string());
   return plc;
 }
 

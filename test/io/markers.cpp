@@ -42,6 +42,8 @@ TEST_CASE("solids of an STL file with different names have markers with these na
   CHECK(markers_of(one) == std::vector{0, 0});
   CHECK(one.names.markers == Names{{0, "body"}});
   CHECK(read_with("a.stl", solid("", "0")).names.markers.empty());
+  CHECK(read_with("a.stl", solid("Geh\xe4use", "0")).names.markers.at(0) == "Geh\xc3\xa4use");
+  CHECK(read_with("a.stl", solid("Geh\xc3\xa4use", "0")).names.markers.at(0) == "Geh\xc3\xa4use");
   const auto none = read_with("a.stl", solid("a", "0") + solid("b", "1"), Markers_from::nothing);
   CHECK(markers_of(none) == std::vector{0, 0});
   CHECK(none.names.markers.empty());
