@@ -2,13 +2,15 @@
 #include <pgdr/domain/patches.h>
 
 #include <algorithm>
-#include <array>
+#include <compare>
+#include <cstddef>
 #include <set>
-#include <tuple>
 #include <vector>
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <pgdr/domain/detail/facet_plane.h>
+#include <pgdr/domain/detail/planar_triangulation.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/vec_3.h>
@@ -16,21 +18,13 @@
 namespace pgdr {
 namespace {
 
-/// A facet's side: from the smaller to the larger vertex, or the other way around.
+/// A facet's side, and whether it runs from the first of its ends to the second.
 struct Side {
-  std::array<Index, 2> ends;
+  domain_detail::Index_pair ends;  ///< ascending
   Index facet;
   bool runs_forward;
-  bool operator<(const Side& o) const { return std::tie(ends, facet, runs_forward) < std::tie(o.ends, o.facet, o.runs_forward); }
+  friend auto operator<=>(const Side&, const Side&) = default;
 };
-
-/// Of a polygon (Newell's), of any length.
-Vec_3 normal_of(const std::vector<Vec_3>& points, const std::vector<Index>& polygon) {
-  Vec_3 normal{0, 0, 0};
-  const Vec_3 origin = points[polygon[0]];
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) normal = normal + cross(points[polygon[i]] - origin, points[polygon[i + 1]] - origin);
-  return normal;
-}
 
 }  // namespace
 
@@ -44,13 +38,13 @@ std::size_t mark_patches(Plc& plc, double angle_deg) {
     const auto& facet = plc.facets[f];
     if (facet.marker != 0 || facet.polygons.size() != 1 || facet.polygons[0].size() < 3) continue;
     const auto& polygon = facet.polygons[0];
-    normals[f] = normal_of(points, polygon);
+    normals[f] = domain_detail::twice_area_vector(points, polygon);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Index a = first[polygon[i]], b = first[polygon[(i + 1) % polygon.size()]];
-      sides.push_back({{std::min(a, b), std::max(a, b)}, f, a < b});
+      sides.push_back({domain_detail::sorted_pair(a, b), f, a < b});
     }
   }
-  std::ranges::sort(sides, [](const Side& a, const Side& b) { return a < b; });
+  std::ranges::sort(sides);
 
   std::vector<Index> rank(plc.facets.size()), parent(plc.facets.size());
   boost::disjoint_sets<Index*, Index*> patches(rank.data(), parent.data());

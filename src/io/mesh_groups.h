@@ -25,6 +25,15 @@ inline std::int32_t reference_of(const std::vector<std::int32_t>& references, st
   return i < references.size() ? references[i] : 0;
 }
 
+/// Corners of a triangle in ascending order: what tells whether two are the same.
+inline std::array<std::uint32_t, 3> sorted_corners(std::array<std::uint32_t, 3> corners) {
+  std::ranges::sort(corners);
+  return corners;
+}
+
+/// Of the face of a tetrahedron that is opposite to corner `k`.
+inline std::array<std::uint32_t, 3> sorted_face(const std::array<std::uint32_t, 4>& t, std::size_t k) { return sorted_corners({t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]}); }
+
 /// Elements with the same reference.
 struct Mesh_group {
   std::string name;      ///< the user's, or "region_1", "marker_7"; no other group of the kind has it

@@ -97,11 +97,6 @@ struct Face {
   bool operator<(const Face& o) const { return corners != o.corners ? corners < o.corners : tetrahedron != o.tetrahedron ? tetrahedron < o.tetrahedron : side < o.side; }
 };
 
-std::array<std::uint32_t, 3> sorted(std::array<std::uint32_t, 3> corners) {
-  std::ranges::sort(corners);
-  return corners;
-}
-
 class Plc_builder {
  public:
   explicit Plc_builder(const Indexed_mesh_3& mesh) : mesh_(mesh) {}
@@ -112,7 +107,7 @@ class Plc_builder {
     number_points();
     std::vector<std::array<std::uint32_t, 3>> listed;
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-      listed.push_back(sorted(mesh_.triangles[i]));
+      listed.push_back(io_detail::sorted_corners(mesh_.triangles[i]));
       add_triangle(mesh_.triangles[i], io_detail::reference_of(mesh_.triangle_references, i));
     }
     std::ranges::sort(listed);
@@ -153,10 +148,8 @@ class Plc_builder {
   void find_neighbors(const std::vector<std::array<std::uint32_t, 3>>& listed) {
     std::vector<Face> faces;
     faces.reserve(4 * mesh_.tetrahedra.size());
-    for (std::uint32_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
-      const auto& c = mesh_.tetrahedra[t];
-      for (std::uint8_t k = 0; k < 4; ++k) faces.push_back({sorted({c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4]}), t, k});
-    }
+    for (std::uint32_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+      for (std::uint8_t k = 0; k < 4; ++k) faces.push_back({io_detail::sorted_face(mesh_.tetrahedra[t], k), t, k});
     parallel_sort(faces.begin(), faces.end());
     neighbors_.assign(4 * mesh_.tetrahedra.size(), none);
     for (std::size_t i = 0, j = 0; i < faces.size(); i = j) {

@@ -41,26 +41,19 @@ struct Side {
 };
 
 std::vector<Side> sides_of(const Indexed_mesh_3& mesh) {
-  using Corners = std::array<std::uint32_t, 3>;
-  const auto sorted = [](Corners c) {
-    std::ranges::sort(c);
-    return c;
-  };
-  std::vector<std::pair<Corners, std::uint32_t>> triangles;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) triangles.emplace_back(sorted(mesh.triangles[i]), i);
+  std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> triangles;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) triangles.emplace_back(io_detail::sorted_corners(mesh.triangles[i]), i);
   std::ranges::sort(triangles);
   std::vector<Side> sides(triangles.size());
   constexpr int number_opposite_of[4] = {3, 4, 2, 1};  // S1 has the first three corners, S2 1 4 2, S3 2 4 3, S4 3 4 1
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const auto& c = mesh.tetrahedra[t];
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
     for (std::size_t k = 0; k < 4; ++k) {
-      const Corners face = sorted({c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4]});
+      const auto face = io_detail::sorted_face(mesh.tetrahedra[t], k);
       const auto found = std::ranges::lower_bound(triangles, std::pair(face, std::uint32_t{0}));
       if (found == triangles.end() || found->first != face) continue;
       Side& side = sides[found->second];
       if (side.tetrahedron == Side::none) side = {t, number_opposite_of[k]};
     }
-  }
   return sides;
 }
 

@@ -113,13 +113,11 @@ Reference_names mark_parts(std::vector<Plc>& parts) {
 void require_surface(const Plc& part) {
   bool is_divided = !part.regions.empty() || !part.holes.empty();
   if (part.nesting == Nesting::fill && !is_divided) {
-    std::map<std::pair<Index, Index>, int> sides;
+    std::map<Index_pair, int> sides;
     for (const auto& facet : part.facets)
       for (const auto& polygon : facet.polygons)
-        for (std::size_t i = 0; i < polygon.size() && polygon.size() > 2; ++i) {
-          const Index a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-          is_divided |= ++sides[{std::min(a, b), std::max(a, b)}] > 2;
-        }
+        for (std::size_t i = 0; i < polygon.size() && polygon.size() > 2; ++i)
+          is_divided |= ++sides[sorted_pair(polygon[i], polygon[(i + 1) % polygon.size()])] > 2;
   }
   if (is_divided)
     throw Input_error(Input_problem::Kind::open_surface, "'" + part.name + "' has regions, holes or facets inside, and the parts of an assembly are closed surfaces: make it the only input");

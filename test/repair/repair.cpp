@@ -247,10 +247,16 @@ TEST_CASE("where parts overlap the later one has it: a bolt in a plate") {
   }
 }
 
+/// Unit cubes with names, the second one so far from the origin.
+static std::vector<Plc> named_boxes(const std::string& first, const std::string& second, double at) {
+  std::vector<Plc> parts{as_surface(box({0, 0, 0}, {1, 1, 1})), as_surface(box({at, 0, 0}, {at + 1, 1, 1}))};
+  parts[0].name = first;
+  parts[1].name = second;
+  return parts;
+}
+
 TEST_CASE("the regions and markers of an assembly are called as its parts are") {
-  std::vector<Plc> parts{as_surface(box({0, 0, 0}, {1, 1, 1})), as_surface(box({1, 0, 0}, {2, 1, 1}))};
-  parts[0].name = "bolt";
-  parts[1].name = "plate";
+  std::vector<Plc> parts = named_boxes("bolt", "plate", 1);
   // The file of the second part has names of its own for some facets, and the first one numbers that mean something to its user.
   parts[0].facets[0].marker = 3;
   parts[1].facets[0].marker = 1;
@@ -264,9 +270,7 @@ TEST_CASE("the regions and markers of an assembly are called as its parts are") 
 }
 
 TEST_CASE("numbers that two parts of an assembly use are told apart, and parts that are no surfaces are refused") {
-  std::vector<Plc> parts{as_surface(box({0, 0, 0}, {1, 1, 1})), as_surface(box({3, 0, 0}, {4, 1, 1}))};
-  parts[0].name = "a";
-  parts[1].name = "b";
+  std::vector<Plc> parts = named_boxes("a", "b", 3);
   parts[0].facets[0].marker = 9;
   parts[1].facets[0].marker = 1;
   parts[1].facets[1].marker = 9;
