@@ -99,12 +99,16 @@ double parse_patch_angle(const std::string& text) {
   return value;
 }
 
-std::pair<int, std::string> parse_name(const std::string& option, const std::string& text) {
-  const std::size_t sign = text.find('=');
-  int number = 0;
-  if (sign == std::string::npos || sign + 1 == text.size() || !read_all(std::string_view(text).substr(0, sign), number))
-    throw Usage_error(option + ": '" + text + "' is not a whole number, '=' and a name");
-  return {number, text.substr(sign + 1)};
+std::map<int, std::string> parse_names(const std::string& option, const std::vector<std::string>& texts) {
+  std::map<int, std::string> names;
+  for (const std::string& text : texts) {
+    const std::size_t sign = text.find('=');
+    int number = 0;
+    if (sign == std::string::npos || sign + 1 == text.size() || !read_all(std::string_view(text).substr(0, sign), number))
+      throw Usage_error(option + ": '" + text + "' is not a whole number, '=' and a name");
+    if (!names.try_emplace(number, text.substr(sign + 1)).second) throw Usage_error(option + ": " + std::to_string(number) + " gets two names");
+  }
+  return names;
 }
 
 int parse_order(const std::string& text) {

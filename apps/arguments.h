@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -73,8 +74,8 @@ std::array<double, 3> parse_point(const std::string& option, const std::string& 
 /// The value of `--patch-angle`: from 0 to 180 degrees.
 double parse_patch_angle(const std::string& text);
 
-/// The value of `--name-marker` and `--name-region`: "3=inlet".
-std::pair<int, std::string> parse_name(const std::string& option, const std::string& text);
+/// The values of `--name-marker` and `--name-region`: "3=inlet", each number once.
+std::map<int, std::string> parse_names(const std::string& option, const std::vector<std::string>& texts);
 
 /// The value of `--order`: 1 or 2.
 int parse_order(const std::string& text);

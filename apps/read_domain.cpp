@@ -73,8 +73,8 @@ void Domain_options::check() const {
   for (const std::string& text : holes) parse_point("--hole", text);
   for (const std::string& text : regions) parse_region(text);
   if (!patch_angle.empty()) parse_patch_angle(patch_angle);
-  for (const std::string& text : marker_names) parse_name("--name-marker", text);
-  for (const std::string& text : region_names) parse_name("--name-region", text);
+  parse_names("--name-marker", marker_names);
+  parse_names("--name-region", region_names);
 }
 
 double Domain_options::fusing_tolerance() const {
@@ -99,16 +99,12 @@ Markers_from source_of_markers(const Domain_options& options) {
 /// Patches, and names that the options give.
 void mark_and_name(Plc& plc, const Domain_options& options) {
   if (!options.patch_angle.empty()) mark_patches(plc, parse_patch_angle(options.patch_angle));
-  for (const std::string& text : options.marker_names) {
-    auto [marker, name] = parse_name("--name-marker", text);
-    if (std::ranges::none_of(plc.facets, [marker = marker](const auto& facet) { return facet.marker == marker; }))
+  for (const auto& [marker, name] : parse_names("--name-marker", options.marker_names))
+    if (std::ranges::none_of(plc.facets, [m = marker](const auto& facet) { return facet.marker == m; }))
       print_message("warning: --name-marker: no facet has the marker " + std::to_string(marker));
-    else plc.names.markers[marker] = std::move(name);
-  }
-  for (const std::string& text : options.region_names) {
-    auto [id, name] = parse_name("--name-region", text);
-    plc.names.regions[id] = std::move(name);
-  }
+    else
+      plc.names.markers[marker] = name;
+  for (const auto& [id, name] : parse_names("--name-region", options.region_names)) plc.names.regions[id] = name;
 }
 
 /// Of the bounding box of all parts.
@@ -124,9 +120,6 @@ Plc repaired_input(const std::vector<std::string>& files, const Domain_options& 
   std::vector<Plc> parts;
   for (const std::string& file : files) parts.push_back(normalized(read_plc(file, source_of_markers(options))));
   if (!options.repair && parts.size() == 1) return std::move(parts[0]);
-  for (const Plc& part : parts)
-    if (part.exponent != parts[0].exponent)
-      throw Input_error(Input_problem::Kind::bad_coordinate, "the parts of the assembly are too different in size");
   const double diagonal = bounding_diagonal(parts);
   const Length gap = options.tolerance.empty() ? default_tolerance : parse_length("--tolerance", options.tolerance);
   const Length hole = options.largest_hole.empty() ? Length{options.repair ? 0.5 : 0.0, true} : parse_length("--fill-holes", options.largest_hole);

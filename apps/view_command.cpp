@@ -58,7 +58,8 @@ int run_view(const View_arguments& arguments) {
   for (const auto& t : mesh.tetrahedra)
     for (const std::uint32_t v : t)
       if (v >= mesh.points.size()) throw Input_error(Input_problem::Kind::bad_index, "'" + arguments.mesh + "' names points that are not there: see pgdr check");
-  mesh = scaled_to(std::move(mesh), exponent_for(mesh));
+  const int exponent = mesh.exponent + exponent_for(mesh);
+  mesh = scaled_to(std::move(mesh), exponent);
   Report report;
   report.title = std::filesystem::path(arguments.mesh).filename().string();
   report.subtitle = "as pgdr view shows it";

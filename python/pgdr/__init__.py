@@ -78,9 +78,9 @@ class Plc(_pgdr.Plc):
 class Mesh:
     """A tetrahedral mesh. Arrays are read-only views of memory that the mesh owns; indices count from 0."""
 
-    def __init__(self, raw: _pgdr.RawMesh, plc: _pgdr.Plc, radius_edge_ratio: float, coplanar_tolerance: float) -> None:
-        self._raw, self._plc = raw, plc
-        self._radius_edge_ratio, self._coplanar_tolerance = radius_edge_ratio, coplanar_tolerance
+    def __init__(self, raw: _pgdr.RawMesh, radius_edge_ratio: float, coplanar_tolerance: float, triangulate: bool) -> None:
+        self._raw = raw
+        self._how = radius_edge_ratio, coplanar_tolerance, triangulate
 
     @property
     def points(self) -> np.ndarray:
@@ -178,7 +178,7 @@ class Mesh:
         With a `plc`, also that the mesh conforms to it; it must be what was meshed, without a tolerance.
         Returns (property, whether it holds, figures) for each.
         """
-        return self._raw.check(plc, self._radius_edge_ratio, self._coplanar_tolerance)
+        return self._raw.check(plc, *self._how)
 
     def write(self, path: str | os.PathLike, *, vtu_triangles: bool = False) -> None:
         """Writes a file in the format of its extension: .vtu, .vtk, .mesh (Medit), .msh (Gmsh), .inp (Abaqus), .su2 or .ele (TetGen).
@@ -195,9 +195,8 @@ class Mesh:
             return (name, corners) if len(nodes) == 0 else (f"{name}{'10' if name == 'tetra' else '6'}", np.hstack([corners, nodes]))
 
         none_t, none_f = np.zeros(len(self.tetrahedra), dtype=np.int32), np.zeros(len(self.triangles), dtype=np.int32)
-        regions = set(self.region_names.values())
-        names = {f"{name}_surface" if name in regions else name: np.array([m, 2]) for m, name in self.marker_names.items()}
-        names.update({name: np.array([r, 3]) for r, name in self.region_names.items()})
+        markers, regions = self._raw.distinct_names
+        names = {name: np.array([number, dimension]) for numbers, dimension in ((markers, 2), (regions, 3)) for number, name in numbers.items()}
         return meshio.Mesh(
             self.points,
             [block(self.tetrahedra, self.tetrahedron_nodes, "tetra"), block(self.triangles, self.triangle_nodes, "triangle")],
@@ -328,7 +327,7 @@ def mesh(
     )
     if order == 2:
         raw.add_midside_nodes()
-    return Mesh(raw, plc, radius_edge_ratio, coplanar_tolerance)
+    return Mesh(raw, radius_edge_ratio, coplanar_tolerance, triangulate)
 
 
 def read(path: str | os.PathLike, *, markers_from: str = "names") -> Plc:

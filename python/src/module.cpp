@@ -28,6 +28,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <pgdr/domain/patches.h>
+#include <pgdr/domain/reference_names.h>
 #include <pgdr/domain/scale.h>
 #include <pgdr/domain/valid_domain.h>
 #include <pgdr/io/medit.h>
@@ -154,7 +155,7 @@ Plc make_plc(const Points& points, const py::object& facets, const std::optional
     for (py::ssize_t i = 0; i < h.shape(0); ++i) plc.holes.emplace_back(h(i, 0), h(i, 1), h(i, 2));
   }
   plc.names = {std::move(marker_names), std::move(region_names)};
-  return plc;
+  return pgdr::normalized(std::move(plc));
 }
 
 pgdr::Markers_from markers_from(const std::string& text) {
@@ -196,8 +197,15 @@ py::array view(const py::object& owner, const std::vector<T>& values) {
   return array;
 }
 
+/// f of the mesh, in coordinates whose products are doubles.
+template <class F>
+auto in_range(const Indexed_mesh_3& mesh, const F& f) {
+  const int exponent = pgdr::exponent_for(mesh);
+  return exponent == 0 ? f(mesh) : f(pgdr::scaled_to(mesh, exponent));
+}
+
 py::dict statistics_of(const Mesh& mesh) {
-  const pgdr::Mesh_quality q = without_gil(0, [&] { return pgdr::mesh_quality(mesh.arrays); });
+  const pgdr::Mesh_quality q = without_gil(0, [&] { return in_range(mesh.arrays, [](const Indexed_mesh_3& m) { return pgdr::mesh_quality(m); }); });
   char checksum[17];
   std::snprintf(checksum, sizeof checksum, "%016llx", static_cast<unsigned long long>(pgdr::mesh_checksum(mesh.arrays)));
   py::dict d;
@@ -416,6 +424,11 @@ void add_mesh(py::module_& m) {
       .def_property_readonly("triangle_nodes", array(&Indexed_mesh_3::triangle_nodes))
       .def_property_readonly("marker_names", [](const Mesh& mesh) { return mesh.arrays.names.markers; })
       .def_property_readonly("region_names", [](const Mesh& mesh) { return mesh.arrays.names.regions; })
+      .def_property_readonly("distinct_names",
+                             [](const Mesh& mesh) {
+                               const pgdr::Reference_names names = pgdr::distinct_names(mesh.arrays.names);
+                               return std::pair(names.markers, names.regions);
+                             })
       .def_readonly("stop", &Mesh::stop)
       .def_readonly("message", &Mesh::message)
       .def_readonly("missing", &Mesh::missing)
@@ -426,24 +439,24 @@ void add_mesh(py::module_& m) {
           [](const Mesh& mesh, const std::filesystem::path& path, bool vtu_triangles) {
             pgdr::Write_options options;
             options.vtu.triangles = vtu_triangles;
-            without_gil(0, [&] { pgdr::write_mesh(mesh.arrays, path, options); });
+            without_gil(0, [&] { in_range(mesh.arrays, [&](const Indexed_mesh_3& m) { pgdr::write_mesh(m, path, options); }); });
           },
           py::arg("path"), py::arg("vtu_triangles"))
       .def(
           "check",
-          [](const Mesh& mesh, const Plc* plc, double ratio, double coplanar_tolerance) {
+          [](const Mesh& mesh, const Plc* plc, double ratio, double coplanar_tolerance, bool triangulate) {
             pgdr::Check_options options;
             options.radius_edge_ratio = ratio;
             const auto lines = without_gil(0, [&] {
               std::optional<Domain> domain;
-              if (plc) domain = pgdr::valid_domain(*plc, coplanar_tolerance);
+              if (plc) domain = pgdr::valid_domain(*plc, coplanar_tolerance, triangulate);
               return pgdr::check_mesh(mesh.arrays.tetrahedron_nodes.empty() ? mesh.arrays : pgdr::without_midside_nodes(mesh.arrays), domain ? &*domain : nullptr, options);
             });
             std::vector<std::tuple<std::string, bool, std::string>> result;
             for (const auto& line : lines) result.emplace_back(line.property, line.passed, line.detail);
             return result;
           },
-          py::arg("plc"), py::arg("radius_edge_ratio"), py::arg("coplanar_tolerance"));
+          py::arg("plc"), py::arg("radius_edge_ratio"), py::arg("coplanar_tolerance"), py::arg("triangulate"));
   m.def(
       "mesh",
       [](const Plc& plc, const py::object& size, const py::object& facet_sizes, double gradation, double radius_edge_ratio, double min_dihedral,

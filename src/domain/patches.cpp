@@ -11,6 +11,7 @@
 
 #include <pgdr/domain/detail/facet_plane.h>
 #include <pgdr/domain/detail/planar_triangulation.h>
+#include <pgdr/domain/free_numbers.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/vec_3.h>
@@ -62,14 +63,12 @@ std::size_t mark_patches(Plc& plc, double angle_deg) {
   for (const auto& facet : plc.facets) taken.insert(facet.marker);
   std::vector<int> marker(plc.facets.size(), 0);  // by the set's representative
   std::size_t count = 0;
-  int last = 0;
+  Free_numbers numbers(taken);
   for (Index f = 0; f < plc.facets.size(); ++f) {
     if (plc.facets[f].marker != 0) continue;
     int& m = marker[patches.find_set(f)];
     if (m == 0) {
-      do ++last;
-      while (taken.contains(last));
-      m = last;
+      m = numbers.next();
       ++count;
     }
     plc.facets[f].marker = m;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/reference_names.h>
+
 #include "line_scanner.h"
 #include "readers.h"
 
@@ -48,14 +50,6 @@ void check_corner_count(const Line_scanner& in, Label facet, std::size_t count) 
     in.fail(Kind::degenerate_facet, facet.text() + " has " + std::to_string(count) +
                                         (count == 1 ? " vertex" : " vertices") + ", fewer than three");
   }
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
 }
 
 /// What follows the corners of a face: nothing, the number of a colour in a table, or red, green, blue (and alpha), up to 255 or, with a
@@ -223,12 +217,12 @@ Checked_surface check_ascii_stl(std::string_view text, const std::filesystem::pa
   std::size_t corners = 0;
   while (in.next_line()) {
     while (!in.at_end_of_line()) {
-      const std::string word = lower(in.word());
+      const std::string word = in_lower_case(in.word());
       const Label facet{"triangle", result.facets};
       if (word == "solid" || word == "endsolid") {
         if (inside) in.fail(Kind::unreadable, facet.text() + " lacks endfacet");
         closed = word == "endsolid";
-        std::string name(in.rest());  // any words
+        std::string name(in.rest_with_comment());  // any words
         if (!closed && markers == Markers_from::names) result.groups.enter(std::move(name));
       } else if (word == "facet") {
         if (inside) in.fail(Kind::unreadable, facet.text() + " lacks endfacet");
@@ -267,7 +261,7 @@ Checked_surface check_stl(std::string_view text, const std::filesystem::path& pa
                            text.size() == stl_header + 4 + stl_triangle * little_endian_32(text, stl_header);
   std::size_t start = 0;
   while (start < text.size() && std::isspace(static_cast<unsigned char>(text[start]))) ++start;
-  const bool solid = lower(text.substr(start, 5)) == "solid";
+  const bool solid = in_lower_case(text.substr(start, 5)) == "solid";
   if (text.empty()) fail_at(path, 0, Kind::empty, "the file is empty");
   return solid && !binary_size ? check_ascii_stl(text, path, markers) : check_binary_stl(text, path);
 }

@@ -39,12 +39,11 @@ class Line_scanner {
   bool next_line() {
     while (next_ < text_.size()) {
       const std::size_t end = std::min(text_.find('\n', next_), text_.size());
-      rest_ = text_.substr(next_, end - next_);
+      line_text_ = rest_ = text_.substr(next_, end - next_);
       next_ = end + 1;
       ++line_;
-      if (const std::size_t comment = rest_.find('#'); comment != std::string_view::npos) {
-        rest_ = rest_.substr(0, comment);
-      }
+      rest_ = rest_.substr(0, rest_.find('#'));
+      comment_length_ = line_text_.size() - rest_.size();
       skip_blanks();
       if (!rest_.empty()) return true;
     }
@@ -78,6 +77,14 @@ class Line_scanner {
     rest_ = {};
     while (!result.empty() && is_blank(result.back())) result.remove_suffix(1);
     return result;
+  }
+
+  /// The same with what looks like a comment: for texts that may hold '#'.
+  std::string_view rest_with_comment() {
+    const std::size_t length = line_text_.size() - rest_.size() - comment_length_;
+    rest_ = line_text_.substr(length);
+    comment_length_ = 0;
+    return rest();
   }
 
   double real(const char* what, Label owner = {}) {
@@ -146,7 +153,9 @@ class Line_scanner {
 
   std::string_view text_;
   std::filesystem::path path_;
-  std::string_view rest_;
+  std::string_view line_text_;  ///< the line as it stands
+  std::string_view rest_;       ///< what is left of it, without the comment
+  std::size_t comment_length_ = 0;
   std::size_t next_ = 0;
   std::size_t line_ = 0;
 };

@@ -7,12 +7,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/free_numbers.h>
+#include <pgdr/domain/reference_names.h>
 #include <pgdr/domain/scale.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
@@ -36,7 +40,7 @@ inline std::array<std::uint32_t, 3> sorted_face(const std::array<std::uint32_t, 
 
 /// Elements with the same reference.
 struct Mesh_group {
-  std::string name;      ///< the user's, or "region_1", "marker_7"; no other group of the kind has it
+  std::string name;      ///< the user's, or "region_1", "marker_7"; no other group of the kind has it, in upper or lower case
   std::int32_t tag = 0;  ///< the reference where it is positive, else the smallest positive number that no other group has: many formats have no others
   std::vector<std::uint32_t> elements;  ///< ascending
 };
@@ -67,26 +71,15 @@ std::vector<Mesh_group> groups_of(const char* kind, std::size_t count, const std
   }
   std::vector<Mesh_group> groups;
   std::set<std::string> taken;
-  std::int32_t free = 0;
+  Free_numbers numbers(by_reference);
   for (auto& [reference, elements] : by_reference) {
-    if (reference <= 0)
-      do ++free;
-      while (by_reference.contains(free));
     const std::string number = std::to_string(reference), plain = std::string(kind) + "_" + number;
     const auto named = names.find(reference);
     std::string name = named == names.end() || named->second.empty() ? plain : as_written(named->second);
-    while (!taken.insert(name).second) name += "_" + number;
-    groups.push_back({std::move(name), reference > 0 ? reference : free, std::move(elements)});
+    while (!taken.insert(in_lower_case(name)).second) name += "_" + number;
+    groups.push_back({std::move(name), reference > 0 ? reference : numbers.next(), std::move(elements)});
   }
   return groups;
-}
-
-/// Names of markers that are no names of regions: readers keep both in one list.
-inline std::map<int, std::string> marker_names_of(const Indexed_mesh_3& mesh) {
-  std::map<int, std::string> names = mesh.names.markers;
-  for (auto& [marker, name] : names)
-    if (std::ranges::any_of(mesh.names.regions, [&name = name](const auto& region) { return region.second == name; })) name += "_surface";
-  return names;
 }
 
 /// The tag of each element's group.
@@ -100,11 +93,11 @@ inline std::vector<std::int32_t> tags_of(std::size_t count, const std::vector<st
 /// Tetrahedra by region, triangles by marker.
 template <class As_written>
 std::vector<Mesh_group> regions_of(const Indexed_mesh_3& mesh, const As_written& as_written) {
-  return groups_of("region", mesh.tetrahedra.size(), mesh.tetrahedron_references, mesh.names.regions, as_written);
+  return groups_of("region", mesh.tetrahedra.size(), mesh.tetrahedron_references, distinct_names(mesh.names).regions, as_written);
 }
 template <class As_written>
 std::vector<Mesh_group> markers_of(const Indexed_mesh_3& mesh, const As_written& as_written) {
-  return groups_of("marker", mesh.triangles.size(), mesh.triangle_references, marker_names_of(mesh), as_written);
+  return groups_of("marker", mesh.triangles.size(), mesh.triangle_references, distinct_names(mesh.names).markers, as_written);
 }
 
 /// Elements with `N` corners and, in a mesh of second order, `M` nodes in the middle of their edges, in the order that a format wants.
@@ -118,6 +111,11 @@ struct Element_nodes {
   std::size_t nodes_of_each() const { return middle.empty() ? N : N + M; }
   std::uint32_t node(std::size_t i, std::size_t k) const { return k < N ? corners[i][k] : middle[i][order[k - N]]; }
 };
+
+/// For formats that have no others. Throws `std::invalid_argument`.
+inline void require_first_order(const Indexed_mesh_3& mesh, const std::filesystem::path& path) {
+  if (!mesh.tetrahedron_nodes.empty()) throw std::invalid_argument("cannot write '" + path.string() + "': the format has no tetrahedra of second order");
+}
 
 /// Orders of the edges 01, 12, 20, 03, 13, 23 of a tetrahedron.
 constexpr std::array<std::size_t, 6> edges_in_vtk{0, 1, 2, 3, 4, 5};     ///< Abaqus's, too

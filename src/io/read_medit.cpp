@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/reference_names.h>
 #include <pgdr/io/medit.h>
 
 #include "file_text.h"
@@ -164,8 +165,7 @@ class Medit_reader {
       fail(Kind::unreadable,
            "a number stands where a keyword is due: the section has more rows than it announces");
     }
-    for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return result;
+    return in_lower_case(result);
   }
 
   long long integer(const char* what) {

@@ -75,13 +75,23 @@ Nodal_values read_image(const Vtk_xml& file, const std::string& array) {
   auto [values, is_of_cells] = values_of(file, array);
   const double shift = is_of_cells ? 0.5 : 0;
   const auto last = [&, less = is_of_cells ? 1 : 0](std::size_t d) { return extent[2 * d + 1] - less; };
-  if (!((last(0) - extent[0] + 1) * (last(1) - extent[2] + 1) * (last(2) - extent[4] + 1) == static_cast<double>(values.size())))
+  const auto is_empty = [&](std::size_t d) { return last(d) < extent[2 * d]; };
+  if (is_empty(0) || is_empty(1) || is_empty(2) || !((last(0) - extent[0] + 1) * (last(1) - extent[2] + 1) * (last(2) - extent[4] + 1) == static_cast<double>(values.size())))
     file.fail("its array '" + array + "' does not fit the image's extent");
   Nodal_values nodes;
-  for (double z = extent[4]; z <= last(2); ++z)
-    for (double y = extent[2]; y <= last(1); ++y)
-      for (double x = extent[0]; x <= last(0); ++x)
-        nodes.points.push_back({origin[0] + (x + shift) * spacing[0], origin[1] + (y + shift) * spacing[1], origin[2] + (z + shift) * spacing[2]});
+  Image_grid& grid = nodes.grid.emplace();
+  for (std::size_t d = 0; d < 3; ++d) {
+    grid.nodes[d] = static_cast<std::size_t>(last(d) - extent[2 * d] + 1);
+    grid.spacing[d] = spacing[d];
+    grid.origin[d] = origin[d] + (extent[2 * d] + shift) * spacing[d];
+  }
+  for (std::size_t k = 0; k < grid.nodes[2]; ++k)
+    for (std::size_t j = 0; j < grid.nodes[1]; ++j)
+      for (std::size_t i = 0; i < grid.nodes[0]; ++i) {
+        const std::array<double, 3> at{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+        auto& p = nodes.points.emplace_back();
+        for (std::size_t d = 0; d < 3; ++d) p[d] = grid.origin[d] + at[d] * grid.spacing[d];
+      }
   nodes.values = std::move(values);
   return nodes;
 }

@@ -62,6 +62,7 @@ void write_elements(Atomic_file& out, const char* keyword,
 }  // namespace
 
 void write_medit(const Indexed_mesh_3& mesh, const std::filesystem::path& path) {
+  io_detail::require_first_order(mesh, path);
   Atomic_file out(path);
   out.write("MeshVersionFormatted 2\n\nDimension 3\n");
   write_section(out, "Vertices", mesh.points.size(), [&](std::size_t first, std::size_t last, char* text) {

@@ -16,6 +16,7 @@ void write_su2(const Indexed_mesh_3& mesh, const std::filesystem::path& path) {
   constexpr int triangle = 5, tetrahedron = 10;
   const auto tetrahedra = io_detail::tetrahedra_of(mesh, io_detail::edges_in_vtk);
   const auto triangles = io_detail::triangles_of(mesh);
+  io_detail::require_first_order(mesh, path);
   Atomic_file out(path);
   out.write("NDIME= 3\nNELEM= " + std::to_string(mesh.tetrahedra.size()) + "\n");
   io_detail::write_rows(out, mesh.tetrahedra.size(), 6, [&](std::size_t first, std::size_t last, char* text) {

@@ -151,10 +151,11 @@ class Vtu_writer {
         out_.write("<DataArray type=\"Int64\" Name=\"" + in_attribute(name) + "\" NumberOfTuples=\"2\" format=\"ascii\">\n" + std::to_string(number) + " " +
                    std::to_string(dimension) + "\n</DataArray>\n");
     };
-    if (mesh_.names.regions.empty() && mesh_.names.markers.empty()) return;
+    const Reference_names names = distinct_names(mesh_.names);
+    if (names.regions.empty() && names.markers.empty()) return;
     out_.write("<FieldData>\n");
-    write_kind(io_detail::marker_names_of(mesh_), 2);
-    write_kind(mesh_.names.regions, 3);
+    write_kind(names.markers, 2);
+    write_kind(names.regions, 3);
     out_.write("</FieldData>\n");
   }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/free_numbers.h>
 #include <pgdr/domain/scale.h>
 
 #include "steps.h"
@@ -87,7 +88,7 @@ Reference_names mark_parts(std::vector<Plc>& parts) {
     for (const int m : markers_of(part))
       if (!part.names.markers.contains(m)) ++users[m];
   Reference_names names;
-  int last = count;
+  Free_numbers numbers(users, count + 1);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Plc& part = parts[p];
     const int own = static_cast<int>(p) + 1;
@@ -97,11 +98,9 @@ Reference_names mark_parts(std::vector<Plc>& parts) {
       const auto named = part.names.markers.find(m);
       const bool is_named = named != part.names.markers.end();
       if (!is_named && users[m] == 1 && (m < 1 || m > count)) continue;
-      do ++last;
-      while (users.contains(last));
-      marker[m] = last;
+      const int number = marker[m] = numbers.next();
       const std::string name = is_named ? named->second : std::to_string(m);
-      names.markers[last] = part.name.empty() ? name : part.name + ":" + name;
+      names.markers[number] = part.name.empty() ? name : part.name + ":" + name;
     }
     for (auto& facet : part.facets)
       if (const auto found = marker.find(facet.marker); found != marker.end()) facet.marker = found->second;
@@ -145,8 +144,12 @@ Plc assemble(std::span<const Plc> parts, const Repair_options& options, Repair_r
   Repair_report& done = report ? *report : ignored;
   done = {};
   if (parts.empty()) throw Input_error(Input_problem::Kind::empty, "an assembly of no parts");
-  for (const Plc& part : parts) require_surface(part);
-  std::vector<Plc> marked(parts.begin(), parts.end());
+  std::vector<Plc> marked;
+  for (const Plc& part : parts) {
+    require_surface(part);
+    marked.push_back(normalized(part));
+    if (marked.back().exponent != marked.front().exponent) throw Input_error(Input_problem::Kind::bad_coordinate, "the parts of the assembly are too different in size");
+  }
   const Reference_names names = mark_parts(marked);
   Plc result = repaired(marked, options, done);
   result.names = names;

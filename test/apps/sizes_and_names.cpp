@@ -134,6 +134,7 @@ TEST_CASE("sizes that make no sense are refused by name", "[apps]") {
   fails("--vtu-compression 10", "--vtu-compression");
   fails("--patch-angle 200", "--patch-angle");
   fails("--name-marker inlet", "--name-marker");
+  fails("--name-marker 1=inlet --name-marker 1=door", "two names");
   CHECK(sandbox.names().empty());
 }
 

@@ -42,6 +42,7 @@ TEST_CASE("solids of an STL file with different names have markers with these na
   CHECK(markers_of(one) == std::vector{0, 0});
   CHECK(one.names.markers == Names{{0, "body"}});
   CHECK(read_with("a.stl", solid("", "0")).names.markers.empty());
+  CHECK(read_with("a.stl", solid("#1", "0") + solid("part #2 ", "1")).names.markers == Names{{1, "#1"}, {2, "part #2"}});
   CHECK(read_with("a.stl", solid("Geh\xe4use", "0")).names.markers.at(0) == "Geh\xc3\xa4use");
   CHECK(read_with("a.stl", solid("Geh\xc3\xa4use", "0")).names.markers.at(0) == "Geh\xc3\xa4use");
   const auto none = read_with("a.stl", solid("a", "0") + solid("b", "1"), Markers_from::nothing);

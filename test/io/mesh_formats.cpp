@@ -6,9 +6,13 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <pgdr/io/medit.h>
+#include <pgdr/io/second_order.h>
+#include <pgdr/io/su2.h>
 #include <pgdr/io/tetgen.h>
 #include <pgdr/io/write_mesh.h>
 
@@ -93,6 +97,26 @@ TEST_CASE("groups have the names that regions and markers have, as far as a form
   mesh.triangle_input_facets.clear();
   pgdr::write_mesh(mesh, folder / "a.vtu", options);
   CHECK(read_back(folder / "a.vtu", mesh, " --triangles " + std::to_string(mesh.triangles.size()) + group("the _inlet_", "triangle", triangles.at(7))) == 0);
+}
+
+TEST_CASE("two names that are equal, but for case perhaps, are two in every file") {
+  const pgdr_test::Temporary_folder folder;
+  auto mesh = mesh_with_references();
+  mesh.names.markers = {{0, "Wall"}, {7, "wall"}, {2147483647, "wall"}};
+  for (const char* file : {"a.inp", "a.su2", "a.vtu"}) {
+    INFO(file);
+    pgdr::write_mesh(mesh, folder / file);
+    const std::string text = text_of(folder / file);
+    for (const char* name : {"Wall", "wall_7", "wall_2147483647"}) CHECK(text.find(name) != std::string::npos);
+  }
+}
+
+TEST_CASE("formats without a second order refuse it") {
+  const pgdr_test::Temporary_folder folder;
+  auto mesh = pgdr_test::sample_mesh(2);
+  pgdr::add_midside_nodes(mesh);
+  CHECK_THROWS_AS(pgdr::write_su2(mesh, folder / "a.su2"), std::invalid_argument);
+  CHECK_THROWS_AS(pgdr::write_medit(mesh, folder / "a.mesh"), std::invalid_argument);
 }
 
 TEST_CASE("an SU2 file has a marker for each marker") {

@@ -90,6 +90,9 @@ TEST_CASE("all encodings of VTK's XML files are read") {
     CHECK(image.points[0] == std::array<double, 3>{1, 2, 3});
     CHECK(image.points[11] == std::array<double, 3>{1.5, 4, 5});
     CHECK(image.values[11] == 11);
+    REQUIRE(image.grid);
+    CHECK(image.grid->nodes == std::array<std::size_t, 3>{2, 3, 2});
+    CHECK(image.grid->spacing == std::array<double, 3>{0.5, 1, 2});
     const auto cells = pgdr::read_nodal_values(folder / (std::to_string(i) + ".vti"), "k");
     REQUIRE(cells.points.size() == 2);
     CHECK(cells.points[1] == std::array<double, 3>{1.25, 3.5, 4});

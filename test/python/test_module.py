@@ -111,6 +111,28 @@ def test_meshio():
     assert [block.type for block in out.cells] == ["tetra", "triangle"]
     assert list(out.field_data["inlet"]) == [1, 2] and list(out.field_data["water"]) == [0, 3]
     assert (out.cell_data["marker"][1] == mesh.markers).all()
+    plc.marker_names = {1: "water", 2: "Water"}
+    assert set(pgdr.mesh(plc, size=0.4).to_meshio().field_data) == {"water", "water_surface", "Water_surface_2"}
+
+
+def test_coordinates_of_any_size():
+    for scale in (1e200, 1e-200):
+        mesh = pgdr.mesh(scale * CORNERS, SIDES, size=0.3 * scale)
+        assert mesh.points.max() == scale
+        assert mesh.statistics()["min_dihedral_deg"] > 5
+        assert all(passed for _, passed, _ in mesh.check(pgdr.Plc(scale * CORNERS, SIDES)))
+        with tempfile.TemporaryDirectory() as folder:
+            mesh.write(Path(folder) / "a.vtu")
+    small = pgdr.Plc(1e-200 * CORNERS, SIDES, nesting="alternate")
+    with pytest.raises(pgdr.InputError, match="too different in size"):
+        pgdr.assemble([small, pgdr.Plc(CORNERS, SIDES, nesting="alternate")])
+
+
+def test_bent_polygons():
+    corners = CORNERS.copy()
+    corners[-1] += 0.1
+    mesh = pgdr.mesh(corners, SIDES, size=0.4, triangulate=True)
+    assert all(passed for _, passed, _ in mesh.check(pgdr.Plc(corners, SIDES)))
 
 
 def test_errors():

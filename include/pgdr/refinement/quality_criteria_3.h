@@ -74,7 +74,7 @@ class Quality_criteria_3 {
   [[noreturn, gnu::cold, gnu::noinline]] static void refuse(double size, const typename K::Point_3& p) {
     const auto coordinate = [](const auto& x) { return significant(CGAL::to_double(x), 6); };
     throw Sizing_error("the size at " + coordinate(p.x()) + "," + coordinate(p.y()) + "," + coordinate(p.z()) + " is " + significant(size) +
-                       ": it has to be positive");
+                       ": it has to be positive, wherever a circumcenter may lie, outside of the domain too");
   }
 
   double radius_edge_ratio_;

@@ -55,12 +55,12 @@ class Grid_sizing_field {
     return size_at({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
   }
 
+  double size_at(const std::array<double, 3>& p) const;
+
   const Sizing_grid& grid() const { return grid_; }
   const std::vector<double>& values() const { return *values_; }
 
  private:
-  double size_at(const std::array<double, 3>& p) const;
-
   Sizing_grid grid_;
   std::shared_ptr<const std::vector<double>> values_;
 };
