@@ -2,6 +2,7 @@
 #include "simplify_in_stages.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include <pgdr/domain/input_error.h>
@@ -30,8 +31,13 @@ class Planarization_passes {
     std::ranges::reverse(stages_);
   }
 
-  void run(Plc& plc, Planarization& done) const {
-    for (const double t : stages_) one(plc, t, done);
+  /// \param first what the narrowest does
+  void run(Plc& plc, Planarization& done, const Stage* first) const {
+    if (first) {
+      plc = first->plc;
+      done = first->done.planarization;
+    }
+    for (std::size_t i = first ? 1 : 0; i < stages_.size(); ++i) one(plc, stages_[i], done);
   }
   /// Where something was taken away since.
   void repeat_widest(Plc& plc, Planarization& done) const { one(plc, stages_.back(), done); }
@@ -58,7 +64,7 @@ class Planarization_passes {
 
 }  // namespace
 
-Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, Simplification_within& report) {
+Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, Simplification_within& report, const Stage* noise_only) {
   report = {};
   const double diagonal = bounding_diagonal(plc);
   if (!(tolerance > 0) || !(diagonal > 0)) return plc;
@@ -75,7 +81,7 @@ Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_toleran
     report.simplification.removed_needles += now.removed_needles;
     report.simplification.largest_change += now.largest_change;
   };
-  if (is_wide) passes.run(result, report.planarization);
+  if (is_wide) passes.run(result, report.planarization, noise_only && noise_only->done.simplification.is_none() ? noise_only : nullptr);
   take_away();
   if (is_wide) {
     passes.repeat_widest(result, report.planarization);

@@ -6,9 +6,16 @@
 
 namespace pgdr::simplify_detail {
 
+/// A PLC and what was done to get there.
+struct Stage {
+  Plc plc;
+  Simplification_within done;
+};
+
 /// What `simplify_within` does with one tolerance, without looking at what came of it: it may be invalid where features are closer to each other
 /// than the tolerance, or worse than before.
-Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, Simplification_within& report);
+/// \param noise_only what this did to the same PLC for a tolerance of noise: where nothing was simplified then, it is the first stage of any other
+Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, Simplification_within& report, const Stage* noise_only = nullptr);
 
 }  // namespace pgdr::simplify_detail
 

@@ -63,24 +63,20 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   report = {};
   if (!(tolerance > 0)) return plc;
   if (exponent_for(plc) != 0) return simplify_within(normalized(plc), tolerance, coplanar_tolerance, triangulate, done);
-  const auto simplified = [&](double within, Simplification_within& what) {
-    return simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, what);
-  };
   const double fused = coplanar_tolerance * bounding_diagonal(plc), limit = tolerance + fused, unit = unit_of(plc);
   const bool is_wide = fused > 0 && tolerance > fused;
-  Simplification_within noise;
-  Plc noise_only = simplified(is_wide ? fused : tolerance, noise);
+  simplify_detail::Stage noise;
+  noise.plc = simplify_detail::simplify_in_stages(plc, is_wide ? fused : tolerance, coplanar_tolerance, triangulate, noise.done);
   // What moves vertices looks itself whether the result is valid; what takes them away does not know what is fused.
   std::optional<Narrowness> before;
-  if (is_wide || !noise.simplification.is_none()) before = narrowness(noise_only, coplanar_tolerance, triangulate);
+  if (is_wide || !noise.done.simplification.is_none()) before = narrowness(noise.plc, coplanar_tolerance, triangulate);
   if (is_wide) {
     // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
-    for (const double within : {2 * tolerance, tolerance, tolerance / 4}) {
-      if (within <= fused) break;
-      Plc result = simplified(within, report);
+    for (double within = 2 * tolerance; within > fused; within /= within > tolerance ? 2 : 4) {
+      Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report, &noise);
       if (report.is_none()) break;
       const auto now = narrowness(result, coplanar_tolerance, triangulate);
-      if (!now || is_worse(*now, before, tolerance / unit)) continue;
+      if (!now || is_worse(*now, before, std::min(within, tolerance) / unit)) continue;
       const auto distance = surface_distance(plc, result, limit / unit);
       if (!distance || !distance->is_within) continue;
       report.limit = limit;
@@ -88,9 +84,9 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
       return result;
     }
   }
-  if (before || noise.simplification.is_none()) {
-    report = noise;
-    return noise_only;
+  if (before || noise.done.simplification.is_none()) {
+    report = noise.done;
+    return std::move(noise.plc);
   }
   report = {};
   try {
