@@ -20,28 +20,33 @@
 
 namespace pgdr {
 
-/// A `CGAL::Mesh_complex_3_in_triangulation_3` over a triangulation without weights, whose vertices and cells model CGAL's `MeshVertexBase_3` and
-/// `MeshCellBase_3`, with indices that are made of an `int`.
+/// A `CGAL::Mesh_complex_3_in_triangulation_3`, whose vertices and cells model CGAL's `MeshVertexBase_3` and `MeshCellBase_3`.
+///
+/// Its triangulation has no weights and coordinates in floating point, its indices can be made of an `int`; others are refused when they are used, with a sentence.
 template <class C3t3>
 concept MeshComplex = requires(C3t3 c3t3) {
   typename C3t3::Triangulation;
   typename C3t3::Triangulation::Cell_handle;
-  requires std::constructible_from<typename C3t3::Subdomain_index, int>;
-  requires std::constructible_from<typename C3t3::Surface_patch_index, int>;
-  requires std::constructible_from<typename C3t3::Curve_index, int>;
-  requires std::constructible_from<typename C3t3::Corner_index, int>;
-  requires std::constructible_from<typename C3t3::Index, int>;
+  typename C3t3::Subdomain_index;
+  typename C3t3::Surface_patch_index;
+  typename C3t3::Curve_index;
+  typename C3t3::Corner_index;
+  typename C3t3::Index;
   c3t3.triangulation();
 };
 
 namespace internal {
 
 template <class C3t3>
-constexpr void require_unweighted() {
+constexpr void require_delaunay_complex() {
   using Tr = typename C3t3::Triangulation;
   static_assert(std::is_same_v<typename Tr::Point, typename Tr::Geom_traits::Point_3>,
                 "pgdr's meshes are Delaunay: take a complex over CGAL::Delaunay_triangulation_3, not over a weighted (regular) triangulation");
   static_assert(std::is_floating_point_v<typename Tr::Geom_traits::FT>, "pgdr needs a triangulation with coordinates in floating point");
+  static_assert(std::constructible_from<typename C3t3::Subdomain_index, int> && std::constructible_from<typename C3t3::Surface_patch_index, int> &&
+                    std::constructible_from<typename C3t3::Curve_index, int> && std::constructible_from<typename C3t3::Corner_index, int> &&
+                    std::constructible_from<typename C3t3::Index, int>,
+                "pgdr's regions and markers are numbers: take a complex whose indices can be made of an int");
 }
 
 /// References as CGAL's indices, of which 0 means "not in the complex": what has none gets the first number above all others.
@@ -213,7 +218,7 @@ class Mesh_complex_builder_3 {
 /// Takes 24 bytes a tetrahedron besides the result, and those of a hash table.
 template <MeshComplex C3t3, class K>
 C3t3 mesh_complex_3(const Refined_mesh_3<K>& mesh) {
-  internal::require_unweighted<C3t3>();
+  internal::require_delaunay_complex<C3t3>();
   return internal::Mesh_complex_builder_3<C3t3, K>(mesh).run();
 }
 

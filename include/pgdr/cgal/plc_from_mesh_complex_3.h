@@ -139,7 +139,7 @@ class Plc_of_mesh_complex_3 {
 /// a facet of the complex between them.
 template <MeshComplex C3t3>
 Plc plc_from_mesh_complex_3(const C3t3& c3t3) {
-  internal::require_unweighted<C3t3>();
+  internal::require_delaunay_complex<C3t3>();
   return internal::Plc_of_mesh_complex_3<C3t3>(c3t3).run();
 }
 
