@@ -81,7 +81,7 @@ struct Mesh_arguments {
 void add_options(CLI::App& parser, Mesh_arguments& arguments) {
   parser
       .add_option("INPUT", arguments.inputs,
-                  "A PLC (.poly, .smesh) or a closed surface (.off, .stl, .ply, .obj); several are the parts of an assembly, a region each; or a mesh to refine further (.mesh, .vtu)")
+                  "A PLC (.poly, .smesh) or a closed surface (.off, .stl, .ply, .obj); several are the parts of an assembly, a region each; or a mesh to refine further (.mesh, .vtu, .msh)")
       ->required()
       ->type_name("");
   parser.add_option("-o,--output", arguments.outputs, "File to write, in the format of its extension: .vtu, .vtk, .mesh, .msh (Gmsh), .inp (Abaqus), .su2 or .ele (TetGen); repeatable")

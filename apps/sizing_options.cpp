@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +13,8 @@
 #include <pgdr/domain/input_error.h>
 #include <pgdr/io/read_sizes.h>
 #include <pgdr/report/format.h>
+#include <pgdr/sizing/curvature_sizes.h>
+#include <pgdr/sizing/edge_length.h>
 #include <pgdr/sizing/facet_sizes.h>
 #include <pgdr/sizing/grid_sizing_field.h>
 #include <pgdr/sizing/nodal_sizing_field.h>
@@ -52,6 +55,10 @@ void Sizing_options::add_to(CLI::App& parser) {
       ->type_name("MARKER:R")
       ->allow_extra_args(false);
   parser
+      .add_option("--curvature", curvature,
+                  "N edges around a full turn of a curved surface, which facets that meet at less than 40 degrees stand for; away from it sizes grow by --gradation (0.5)")
+      ->type_name("N");
+  parser
       .add_option("--size-expression", expression,
                   "Upper bound of the circumradius by the circumcenter's x, y and z, as in \"0.1+0.2*abs(x)\" (muParser's syntax; functions like sin are "
                   "the C library's, so meshes may differ between processors)")
@@ -68,9 +75,6 @@ void Sizing_options::add_to(CLI::App& parser) {
 }
 
 namespace {
-
-/// Mean length of the edges of a mesh with a bound on circumradii, as a part of it: 1.33, 1.35 and 1.35 in cubes of 0.04, 0.3 and 2.4 million tetrahedra.
-constexpr double mean_edge = 1.35;
 
 /// How fast sizes grow around facets with a size of their own where --gradation does not say: in halves of the distance.
 constexpr double gradation_of_facets = 0.5;
@@ -160,8 +164,8 @@ Command_line_sizing::Local Sizing_options::local() const {
   if (!gradation.empty()) {
     growth = parse_positive("--gradation", gradation);
     if (!(growth < 1)) throw Usage_error("--gradation must be less than 1, because nothing bounds sizes that grow faster than the distance, not " + gradation);
-    if (boxes.empty() && balls.empty() && facet_sizes.empty())
-      throw Usage_error("--gradation is of boxes, balls and markers: it needs --refine-box, --size-ball or --facet-size");
+    if (boxes.empty() && balls.empty() && facet_sizes.empty() && curvature.empty())
+      throw Usage_error("--gradation is of boxes, balls, markers and curvature: it needs --refine-box, --size-ball, --facet-size or --curvature");
   } else if (std::ranges::any_of(balls, [](const Sizing_ball& ball) { return ball.extent == 0; })) {
     throw Usage_error("--size-ball: a ball with a radius of 0 needs --gradation, because no circumcenter is exactly there");
   }
@@ -172,6 +176,7 @@ void Sizing_options::check() const {
   local();
   if (!near_surface.empty()) parse_sizes_near_surface(near_surface);
   for (const std::string& text : facet_sizes) parse_facet_size(text);
+  if (!curvature.empty()) parse_positive("--curvature", curvature);
   if (!expression.empty()) parse_size_expression(expression);
   if (!field_file.empty()) parse_field(field_file);
 }
@@ -186,6 +191,8 @@ Command_line_sizing Sizing_options::field(const Domain& domain) const {
   }
   const double growth = gradation.empty() ? gradation_of_facets : parse_positive("--gradation", gradation);
   for (const std::string& text : facet_sizes) by_distance.push_back(sizes_on(domain, parse_facet_size(text), growth, places.outer().radius()));
+  if (!curvature.empty())
+    std::ranges::move(curvature_sizes(domain, parse_positive("--curvature", curvature), growth, places.outer().radius()), std::back_inserter(by_distance));
   std::vector<Command_line_sizing::Function> functions;
   if (!expression.empty()) functions.push_back(parse_size_expression(expression));
   if (!field_file.empty()) functions.push_back(field_of(field_file));

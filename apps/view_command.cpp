@@ -73,7 +73,7 @@ int run_view(const View_arguments& arguments) {
 Command add_view_command(CLI::App& program) {
   const auto arguments = std::make_shared<View_arguments>();
   CLI::App* parser = program.add_subcommand("view", "Look at a mesh: a page with a picture to cut open, histograms and the worst tetrahedra");
-  parser->add_option("MESH", arguments->mesh, "A .mesh or .vtu file")->required()->type_name("");
+  parser->add_option("MESH", arguments->mesh, "A .mesh, .vtu or .msh file")->required()->type_name("");
   parser->add_option("-o,--output", arguments->output, "Write the page here (.html), in place of showing it")->type_name("FILE");
   return {parser, [arguments] { return run_view(*arguments); }};
 }

@@ -232,6 +232,7 @@ def mesh(
     *,
     size: Size = None,
     facet_sizes: Mapping[int | str, float] | None = None,
+    curvature: float | None = None,
     gradation: float = 0.5,
     markers: Sequence[int] | None = None,
     regions: Iterable[tuple] | None = None,
@@ -263,6 +264,8 @@ def mesh(
         it must return the same for the same point. None: as coarse as the shape allows.
     facet_sizes : dictionary from markers, or their names, to floats
         Upper bounds of the circumradius on facets; away from them the bound grows by `gradation` for each unit of distance.
+    curvature : float
+        So many edges around a full turn of a curved surface, which facets that meet at less than 40 degrees stand for; away from it the bound grows, too.
     radius_edge_ratio : float, at least 2
         Upper bound of circumradius over shortest edge.
     min_dihedral : float
@@ -310,6 +313,7 @@ def mesh(
         plc,
         size=size,
         facet_sizes=None if facet_sizes is None else dict(facet_sizes),
+        curvature=curvature,
         gradation=gradation,
         radius_edge_ratio=radius_edge_ratio,
         min_dihedral=min_dihedral,
@@ -331,7 +335,7 @@ def mesh(
 
 
 def read(path: str | os.PathLike, *, markers_from: str = "names") -> Plc:
-    """Reads a .poly, .smesh, .off, .stl, .ply or .obj file.
+    """Reads a .poly, .smesh, .off, .stl, .ply or .obj file, or a mesh to be refined further: .mesh, .vtu or .msh.
 
     `markers_from` says what in a surface file becomes markers: "names" (of solids, groups and materials), "colors" (of faces) or "nothing".
     Raises InputError, whose message has the line.

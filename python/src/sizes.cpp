@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sizes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +16,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <pgdr/sizing/curvature_sizes.h>
 #include <pgdr/sizing/facet_sizes.h>
 #include <pgdr/sizing/grid_sizing_field.h>
 #include <pgdr/sizing/nodal_sizing_field.h>
@@ -77,7 +80,7 @@ pgdr::Sizing_grid grid_of(const std::array<double, 3>& lower, const std::array<d
 
 }  // namespace
 
-pgdr::Command_line_sizing sizing_of(const py::object& size, const py::object& facet_sizes, double gradation,
+pgdr::Command_line_sizing sizing_of(const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature, double gradation,
                                     const pgdr::Domain_3<pgdr::Default_kernel>& domain, const std::shared_ptr<First_error>& errors) {
   pgdr::Uniform_sizing_field everywhere;
   std::vector<pgdr::Command_line_sizing::Function> functions;
@@ -103,6 +106,13 @@ pgdr::Command_line_sizing sizing_of(const py::object& size, const py::object& fa
         throw py::value_error("facet_sizes, '" + name + "': " + error.what());
       }
     }
+  if (curvature) {
+    try {
+      std::ranges::move(pgdr::curvature_sizes(domain, *curvature, gradation, everywhere.radius()), std::back_inserter(by_distance));
+    } catch (const std::invalid_argument& error) {
+      throw py::value_error(std::string("curvature: ") + error.what());
+    }
+  }
   return pgdr::Command_line_sizing(pgdr::Command_line_sizing::Local(everywhere, {}, {}, pgdr::Command_line_sizing::Local::no_gradation), std::move(by_distance),
                                    std::move(functions));
 }

@@ -5,6 +5,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include <pybind11/pybind11.h>
 
@@ -28,8 +29,8 @@ class First_error {
 };
 
 /// The sizing field of the arguments `size` (None, a number, a function of x, y and z, or a Grid) and `facet_sizes` (None, or a dictionary from
-/// markers, numbers or names, to sizes) of `mesh`. Functions are called with the GIL held. \pre holds the GIL
-pgdr::Command_line_sizing sizing_of(const pybind11::object& size, const pybind11::object& facet_sizes, double gradation,
+/// markers, numbers or names, to sizes) and `curvature` (edges around a full turn) of `mesh`. Functions are called with the GIL held. \pre holds the GIL
+pgdr::Command_line_sizing sizing_of(const pybind11::object& size, const pybind11::object& facet_sizes, const std::optional<double>& curvature, double gradation,
                                     const pgdr::Domain_3<pgdr::Default_kernel>& domain, const std::shared_ptr<First_error>& errors);
 
 /// Adds the classes Grid and Nodes.

@@ -15,6 +15,7 @@
 #include <pgdr/domain/input_error.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/volumes_3.h>
+#include <pgdr/io/gmsh.h>
 #include <pgdr/io/medit.h>
 #include <pgdr/parallel/parallel_sort.h>
 #include <pgdr/quality/measures.h>
@@ -221,7 +222,7 @@ class Plc_builder {
 }  // namespace
 
 const std::vector<std::string>& readable_mesh_extensions() {
-  static const std::vector<std::string> extensions{".mesh", ".vtu"};
+  static const std::vector<std::string> extensions{".mesh", ".vtu", ".msh"};
   return extensions;
 }
 
@@ -229,7 +230,8 @@ Indexed_mesh_3 read_mesh(const std::filesystem::path& path) {
   const std::string extension = io_detail::lower_extension(path);
   if (extension == ".mesh") return read_medit(path);
   if (extension == ".vtu") return read_vtu_mesh(path);
-  io_detail::fail_at(path, 0, Kind::unreadable, "the extension '" + extension + "' is not one of .mesh, .vtu");
+  if (extension == ".msh") return read_gmsh(path);
+  io_detail::fail_at(path, 0, Kind::unreadable, "the extension '" + extension + "' is not one of .mesh, .vtu, .msh");
 }
 
 Plc plc_of_mesh(const Indexed_mesh_3& mesh) { return Plc_builder(mesh).build(); }

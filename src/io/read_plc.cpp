@@ -32,9 +32,9 @@ Plc read_any(const std::filesystem::path& path, Markers_from markers) {
   if (extension == ".stl") return read_surface(path, Surface_format::stl, markers);
   if (extension == ".ply") return read_surface(path, Surface_format::ply, markers);
   if (extension == ".obj") return read_surface(path, Surface_format::obj, markers);
-  if (extension == ".mesh" || extension == ".vtu") return plc_of_mesh(read_mesh(path));
+  if (std::ranges::find(readable_mesh_extensions(), extension) != readable_mesh_extensions().end()) return plc_of_mesh(read_mesh(path));
   fail_at(path, 0, Input_problem::Kind::unreadable,
-          "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj, .mesh, .vtu");
+          "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj, .mesh, .vtu, .msh");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ bool is_surface_file(const std::filesystem::path& path) {
 
 bool is_known_plc_extension(const std::filesystem::path& path) {
   const std::string extension = io_detail::lower_extension(path);
-  for (const char* known : {".poly", ".smesh", ".off", ".stl", ".ply", ".obj", ".mesh", ".vtu"}) {
+  for (const char* known : {".poly", ".smesh", ".off", ".stl", ".ply", ".obj", ".mesh", ".vtu", ".msh"}) {
     if (extension == known) return true;
   }
   return false;

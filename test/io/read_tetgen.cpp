@@ -206,7 +206,7 @@ TEST_CASE("files that cannot be read at all") {
         std::string::npos);
   CHECK(pgdr::is_known_plc_extension("a/b.OBJ"));
   CHECK(pgdr::is_known_plc_extension("a/b.mesh"));
-  CHECK_FALSE(pgdr::is_known_plc_extension("a/b.msh"));
+  CHECK_FALSE(pgdr::is_known_plc_extension("a/b.vtk"));
 }
 
 TEST_CASE("poly: every prefix of a file is read or refused, never worse") {

@@ -82,6 +82,17 @@ def test_sizes():
     assert edges.max() <= 0.1 * (1 + 1e-9)
 
 
+def test_curvature():
+    angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
+    rings = [np.column_stack([np.cos(angles), np.sin(angles), np.full(48, z)]) for z in (0.0, 1.0)]
+    walls = [[i, (i + 1) % 48, 48 + (i + 1) % 48, 48 + i] for i in range(48)]
+    plc = pgdr.Plc(np.vstack(rings), [*walls, list(range(48)), list(range(48, 96))])
+    sizes = [len(pgdr.mesh(plc, curvature=n).tetrahedra) for n in (8, 100)]
+    assert sizes[1] > 2 * sizes[0]
+    with pytest.raises(ValueError, match="curvature"):
+        pgdr.mesh(plc, curvature=0)
+
+
 def test_order_2():
     mesh = pgdr.mesh(CORNERS, SIDES, size=0.3, order=2)
     middle = (mesh.points[mesh.tetrahedra[:, 1]] + mesh.points[mesh.tetrahedra[:, 3]]) / 2

@@ -22,6 +22,11 @@ enum class Gmsh_format {
 /// Throws `Output_error`; the file appears complete or not at all.
 void write_gmsh(const Indexed_mesh_3& mesh, const std::filesystem::path& path, Gmsh_format format = Gmsh_format::binary_4_1);
 
+/// Reads tetrahedra and triangles, of those of second order the corners, and lines of physical curves: Gmsh's formats 4.1, text or binary, and 2.2, text. Regions and markers are
+/// the first physical group of each entity, with its name, or 0.
+/// Throws `Input_error`, also for hexahedra, prisms and pyramids, and for a mesh in partitions.
+Indexed_mesh_3 read_gmsh(const std::filesystem::path& path);
+
 }  // namespace pgdr
 
 #endif

@@ -11,10 +11,10 @@
 
 namespace pgdr {
 
-/// The extensions that `read_mesh` knows: `.mesh` and `.vtu`.
+/// The extensions that `read_mesh` knows: `.mesh`, `.vtu` and `.msh`.
 const std::vector<std::string>& readable_mesh_extensions();
 
-/// Reads tetrahedra, with the triangles, edges, markers, regions and names that the file has: Medit's ASCII format (`read_medit`), or VTK's unstructured grids (tetrahedra and triangles, of
+/// Reads tetrahedra, with the triangles, edges, markers, regions and names that the file has: Medit's ASCII format (`read_medit`), Gmsh's (`read_gmsh`), or VTK's unstructured grids (tetrahedra and triangles, of
 /// those of second order the corners; cell data `region` and `marker`, or `attribute`; other cells are left out).
 /// Throws `Input_error`.
 Indexed_mesh_3 read_mesh(const std::filesystem::path& path);

@@ -24,7 +24,7 @@ enum class Markers_from {
 /// and textures are left out. Where `markers` finds several groups of facets in such a file, they have the markers 1, 2, ... in the order
 /// in which they begin, and their names; a single one has the marker 0.
 ///
-/// `.mesh`, `.vtu`: a mesh that is to be refined further (`read_mesh`, `plc_of_mesh`).
+/// `.mesh`, `.vtu`, `.msh`: a mesh that is to be refined further (`read_mesh`, `plc_of_mesh`).
 ///
 /// Throws `Input_error`, whose message is one sentence with the file and, in text files, the 1-based line.
 Plc read_plc(const std::filesystem::path& path, Markers_from markers = Markers_from::names);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pgdr/sizing/curvature_sizes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <stdexcept>
+
+#include <pgdr/domain/detail/facet_edges.h>
+#include <pgdr/domain/scale.h>
+#include <pgdr/domain/small_angles_3.h>
+#include <pgdr/sizing/edge_length.h>
+#include <pgdr/sizing/facet_sizes.h>
+
+namespace pgdr {
+
+namespace {
+
+using Domain = Domain_3<Default_kernel>;
+
+/// Two triangles of a curved surface.
+struct Bend {
+  double size;
+  std::array<domain_detail::Sheet, 2> sheets;
+};
+
+/// \param size_per_radius sizes in units of the radius of curvature
+std::vector<Bend> bends(const Domain& domain, double size_per_radius) {
+  const domain_detail::Facet_edges edges(domain);
+  const std::vector<double> angles = dihedral_angles_3(domain, edges);
+  const auto point = [&](Index v) { return to_vec(domain.vertices[v]); };
+  std::vector<Bend> result;
+  for (std::size_t s = 0; s < domain.segments.size(); ++s) {
+    const double turn = 180 - angles[s];
+    const auto sheets = edges.sheets(s);
+    if (sheets.size() != 2 || !(turn > 0) || turn > feature_angle_deg) continue;
+    const auto [a, b] = domain.segments[s].vertices;
+    double height = std::numeric_limits<double>::infinity();
+    for (const auto& sheet : sheets)
+      for (const Index v : domain.facets[sheet.facet].triangles[sheet.triangle])
+        if (v != a && v != b) height = std::min(height, std::sqrt(squared_distance_to_line(point(v), point(a), point(b))));
+    const double size = unit_of(domain) * size_per_radius * height / (turn * std::numbers::pi / 180);
+    if (size > 0 && std::isfinite(size)) result.push_back({size, {sheets[0], sheets[1]}});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Distance_sizing_field> curvature_sizes(const Domain& domain, double edges_per_turn, double gradation, double largest) {
+  if (!(edges_per_turn > 0 && std::isfinite(edges_per_turn))) throw std::invalid_argument("the number of edges around a turn has to be positive and finite");
+  std::vector<Bend> all = bends(domain, 2 * std::numbers::pi / edges_per_turn / mean_edge);
+  std::ranges::stable_sort(all, {}, &Bend::size);
+  std::vector<Distance_sizing_field> fields;
+  for (std::size_t first = 0, end = 0; first < all.size() && all[first].size < largest; first = end) {
+    std::vector<Distance_sizing_field::Triangle> triangles;
+    for (; end < all.size() && all[end].size <= std::numbers::sqrt2 * all[first].size; ++end)
+      for (const auto& sheet : all[end].sheets) triangles.push_back(facet_triangle_of(domain, domain.facets[sheet.facet].triangles[sheet.triangle]));
+    fields.push_back(sizes_around(domain, triangles, all[first].size, gradation, largest));
+  }
+  return fields;
+}
+
+}  // namespace pgdr
