@@ -23,8 +23,6 @@ namespace {
 
 using Domain = Domain_3<Default_kernel>;
 
-/// In units of the bounding box's diagonal: a facet that is bent by less is as plane as the points that refinement puts on it.
-constexpr double bent = 1e-13;
 /// What a solution may leave; above that the facet has none.
 constexpr double unsolved = 1e-10;
 /// Of the tolerance: what makes a facet plane may not bring its vertices as close to each other as that.
@@ -43,6 +41,9 @@ constexpr int most_steps = 8, rough_steps = 2;
 constexpr int fusings = 2;
 /// How often facets that would intersect others are given up.
 constexpr int most_rounds = 8;
+
+/// Whether more than noise is made plane.
+bool is_wide(const Domain& domain) { return domain.tolerance > 2 * noise * domain.diagonal; }
 
 class Planarizer {
  public:
@@ -68,10 +69,9 @@ class Planarizer {
 
   /// Where the points should be.
   std::vector<Vec_3> solution() {
-    const Plane_system system(facets_, fixed_, bent * domain_.diagonal);
+    const Plane_system system(facets_, fixed_, Plane_system::bent * domain_.diagonal);
     // Who moves too far is seen after a step or two. With the tolerance of noise there are few rounds, and the result stays what it always was.
-    const bool is_wide = domain_.tolerance > 2 * noise * domain_.diagonal;
-    for (int round = 0; is_wide && round < careful_rounds; ++round)
+    for (int round = 0; is_wide(domain_) && round < careful_rounds; ++round)
       if (!give_up_what_is_far(solve(system, rough_steps), true, false)) break;
     for (int round = 0;; ++round) {
       std::vector<Vec_3> points = solve(system, most_steps);
@@ -93,11 +93,19 @@ class Planarizer {
       if (std::any_of(facets_[f].begin(), facets_[f].end(), [&](Index v) { return is_near[v]; })) is_on_[f] = false;
   }
 
+  /// Those that are bent with the vertices there: the input facets of each.
+  std::vector<std::vector<Index>> bent_facets(const std::vector<Vec_3>& points) const {
+    std::vector<std::vector<Index>> result;
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      if (Plane_system::bend(facets_[f], points) > unsolved * domain_.diagonal) result.push_back(domain_.facets[f].input_facets);
+    return result;
+  }
+
   Planarization report(const std::vector<Vec_3>& points) const {
     Planarization done;
     for (const auto& facet : facets_) {
-      const bool is_bent = Plane_system::bend(facet, points) > bent * domain_.diagonal;
-      const bool was_bent = Plane_system::bend(facet, input_) > bent * domain_.diagonal;
+      const bool is_bent = Plane_system::bend(facet, points) > Plane_system::bent * domain_.diagonal;
+      const bool was_bent = Plane_system::bend(facet, input_) > Plane_system::bent * domain_.diagonal;
       done.bent_facets += is_bent;
       done.flattened_facets += was_bent && !is_bent;
     }
@@ -120,7 +128,7 @@ class Planarizer {
     for (Index f = 0; f < facets_.size(); ++f) {
       if (facets_[f].size() < 4) continue;
       for (const Index v : facets_[f]) facets_of[v].push_back(f);
-      if (Plane_system::bend(facets_[f], points_) > bent * domain_.diagonal) choose(f);
+      if (Plane_system::bend(facets_[f], points_) > Plane_system::bent * domain_.diagonal) choose(f);
     }
     while (!next.empty()) {
       const Index f = next.back();
@@ -327,6 +335,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
       const std::vector<Vec_3> points = planarizer.solution();
       if (planarizer.is_at(points)) {
         if (const Planarization report = planarizer.report(points); done && !report.is_none()) *done = report;
+        if (done) done->bent = planarizer.bent_facets(points);
         return best;
       }
       if (!guard) guard.emplace(domain);
@@ -336,13 +345,15 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
         Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
         const Low_corners low = low_corners(plane, plc, lowest * plane.tolerance);
         concerned = low.facets;
-        guard->add_sharpened(plane, concerned);
+        // Within noise no facet falls onto another, and one that is given up stays bent: the wing section (a30) would have no end.
+        if (is_wide(domain)) guard->add_sharpened(plane, concerned);
         for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
           concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
         if (concerned.empty()) {
           if (done) *done = planarizer.report(points);
           if (std::any_of(low.inside.begin(), low.inside.end(), [](bool b) { return b; }))
             return without_vertices(std::move(result), plane, low.inside);
+          if (done) done->bent = planarizer.bent_facets(points);
           best = std::move(result);
           domain = std::move(plane);
           break;

@@ -10,9 +10,10 @@
 
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/scale.h>
-#include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 
+#include "narrow_corners.h"
+#include "separate_bent.h"
 #include "simplify_in_stages.h"
 
 namespace pgdr {
@@ -22,9 +23,7 @@ namespace {
 /// What makes elements small in a domain.
 struct Narrowness {
   double lowest = std::numeric_limits<double>::infinity();  ///< height of the lowest triangle of the facets
-  /// How often corners of facets would have to be halved to get from the angle above which the bound on the ratio can hold to theirs, all together.
-  /// Tetrahedra that needles cost go by it: a knob (a26) has 7,546 and 7.0 million, after 1e-4d 385 and 0.5; cones17 710 and 0.6, or 1,145 and 0.9.
-  double corners = 0;
+  double corners = 0;  ///< `halvings` of all corners of facets
 };
 
 /// None if the PLC is not valid.
@@ -39,9 +38,7 @@ std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, 
       for (const auto& t : facet.triangles)
         for (int i = 0; i < 3; ++i)
           n.lowest = std::min(n.lowest, std::sqrt(squared_distance_to_line(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]])));
-    for (const auto& corner : domain_detail::Facet_edges(domain).corners(points))
-      for (double angle = Small_angles::critical_plane_angle_deg; corner.angle_deg < angle && angle > 1e-9; angle /= 2)
-        n.corners += std::min(1.0, angle / std::max(corner.angle_deg, 1e-9) - 1);
+    for (const auto& corner : domain_detail::Facet_edges(domain).corners(points)) n.corners += simplify_detail::halvings(corner.angle_deg);
     return n;
   } catch (const Input_error&) {
     return std::nullopt;
@@ -86,11 +83,12 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   }
   if (before || noise.done.simplification.is_none()) {
     report = noise.done;
-    return std::move(noise.plc);
+    return simplify_detail::separated(std::move(noise.plc), report.planarization.bent, triangulate);
   }
   report = {};
   try {
-    return planarize(plc, coplanar_tolerance, triangulate, &report.planarization);
+    Plc result = planarize(plc, coplanar_tolerance, triangulate, &report.planarization);
+    return simplify_detail::separated(std::move(result), report.planarization.bent, triangulate);
   } catch (const Input_error&) {
     return plc;  // what is wrong with it is said when it is understood
   }

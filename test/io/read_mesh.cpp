@@ -21,6 +21,7 @@
 #include "../catch.h"
 #include "domain/shapes.h"
 #include "../inputs.h"
+#include "read_back.h"
 #include "sample_mesh.h"
 #include "temporary_folder.h"
 

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/domain/vec_3.h>
 
+#include "../../src/simplify/separate_bent.h"
 #include "catch.h"
 #include "domain/shapes.h"
 
@@ -126,4 +129,27 @@ TEST_CASE("a needle that stood upright does not fall onto the edge it stands on"
     CHECK(flat.vertices.size() == 8);
     CHECK(facets_within(flat, rounding) == 6);
   }
+}
+
+TEST_CASE("facets that stay bent are kept apart, but for many at once") {
+  Plc plc;
+  for (const auto& [x, y, z] : {std::tuple{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 5e-7}, {0.0, 1.0, 0.0}}) plc.vertices.emplace_back(x, y, z);
+  plc.facets = {{{{0, 1, 2}}, {}, 0}, {{{0, 2, 3}}, {}, 0}};
+  REQUIRE(facets_within(plc, tolerance) == 1);
+  CHECK(facets_within(simplify_detail::separated(plc, {{0, 1}}, false), tolerance) == 2);
+  CHECK(facets_within(simplify_detail::separated(plc, {}, false), tolerance) == 1);
+  // What is plane stays one facet.
+  plc.vertices[2] = {1, 1, 0};
+  CHECK(facets_within(simplify_detail::separated(plc, {{0, 1}}, false), tolerance) == 1);
+  // A fan around a corner that is lifted a little.
+  Plc fan;
+  fan.vertices.emplace_back(0, 0, 2e-7);
+  std::vector<Index> all;
+  for (Index i = 0; i < 12; ++i) {
+    fan.vertices.emplace_back(std::cos(i * std::numbers::pi / 6), std::sin(i * std::numbers::pi / 6), 0);
+    fan.facets.push_back({{{0, i + 1, (i + 1) % 12 + 1}}, {}, 0});
+    all.push_back(i);
+  }
+  REQUIRE(facets_within(fan, tolerance) == 1);
+  CHECK(facets_within(simplify_detail::separated(fan, {all}, false), tolerance) == 1);
 }
