@@ -116,11 +116,11 @@ Command_line_sizing::Function field_of(const std::string& text) {
   const Nodal_values nodes = read_nodal_values(file, array);
   try {
     // What is regular needs no triangulation. A slice of an image, or one that runs backwards, is points like any.
-    const auto is_solid = [](const Image_grid& g) {
+    const auto is_solid = [](const Sizing_grid& g) {
       return std::ranges::all_of(g.nodes, [](std::size_t n) { return n > 1; }) && std::ranges::all_of(g.spacing, [](double s) { return s > 0; });
     };
     if (nodes.grid && is_solid(*nodes.grid))
-      return [field = Grid_sizing_field({nodes.grid->origin, nodes.grid->spacing, nodes.grid->nodes}, nodes.values)](const std::array<double, 3>& p) { return field.size_at(p); };
+      return [field = Grid_sizing_field(*nodes.grid, nodes.values)](const std::array<double, 3>& p) { return field.size_at(p); };
     return [field = Nodal_sizing_field(nodes.points, nodes.values)](const std::array<double, 3>& p) { return field.size_at(p); };
   } catch (const std::invalid_argument& error) {
     throw Input_error(Input_problem::Kind::unreadable, "'" + file + "', '" + array + "': " + error.what());

@@ -81,8 +81,7 @@ class Line_scanner {
 
   /// The same with what looks like a comment: for texts that may hold '#'.
   std::string_view rest_with_comment() {
-    const std::size_t length = line_text_.size() - rest_.size() - comment_length_;
-    rest_ = line_text_.substr(length);
+    rest_ = line_text_.substr(line_text_.size() - rest_.size() - comment_length_);
     comment_length_ = 0;
     return rest();
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include <pgdr/domain/reference_names.h>
 #include <pgdr/io/read_mesh.h>
 
 #include "file_text.h"
@@ -13,15 +14,14 @@ namespace pgdr {
 namespace io_detail {
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
+  return in_lower_case(path.extension().string());
 }
 
 }  // namespace io_detail
 
 namespace {
+
+bool is_mesh(const std::string& extension) { return std::ranges::find(readable_mesh_extensions(), extension) != readable_mesh_extensions().end(); }
 
 Plc read_any(const std::filesystem::path& path, Markers_from markers) {
   using namespace io_detail;
@@ -32,7 +32,7 @@ Plc read_any(const std::filesystem::path& path, Markers_from markers) {
   if (extension == ".stl") return read_surface(path, Surface_format::stl, markers);
   if (extension == ".ply") return read_surface(path, Surface_format::ply, markers);
   if (extension == ".obj") return read_surface(path, Surface_format::obj, markers);
-  if (std::ranges::find(readable_mesh_extensions(), extension) != readable_mesh_extensions().end()) return plc_of_mesh(read_mesh(path));
+  if (is_mesh(extension)) return plc_of_mesh(read_mesh(path));
   fail_at(path, 0, Input_problem::Kind::unreadable,
           "the extension '" + extension + "' is not one of .poly, .smesh, .off, .stl, .ply, .obj, .mesh, .vtu, .msh");
 }
@@ -52,10 +52,7 @@ bool is_surface_file(const std::filesystem::path& path) {
 
 bool is_known_plc_extension(const std::filesystem::path& path) {
   const std::string extension = io_detail::lower_extension(path);
-  for (const char* known : {".poly", ".smesh", ".off", ".stl", ".ply", ".obj", ".mesh", ".vtu", ".msh"}) {
-    if (extension == known) return true;
-  }
-  return false;
+  return extension == ".poly" || extension == ".smesh" || is_surface_file(path) || is_mesh(extension);
 }
 
 }  // namespace pgdr

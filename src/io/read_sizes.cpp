@@ -79,19 +79,13 @@ Nodal_values read_image(const Vtk_xml& file, const std::string& array) {
   if (is_empty(0) || is_empty(1) || is_empty(2) || !((last(0) - extent[0] + 1) * (last(1) - extent[2] + 1) * (last(2) - extent[4] + 1) == static_cast<double>(values.size())))
     file.fail("its array '" + array + "' does not fit the image's extent");
   Nodal_values nodes;
-  Image_grid& grid = nodes.grid.emplace();
+  Sizing_grid& grid = nodes.grid.emplace();
   for (std::size_t d = 0; d < 3; ++d) {
     grid.nodes[d] = static_cast<std::size_t>(last(d) - extent[2 * d] + 1);
     grid.spacing[d] = spacing[d];
     grid.origin[d] = origin[d] + (extent[2 * d] + shift) * spacing[d];
   }
-  for (std::size_t k = 0; k < grid.nodes[2]; ++k)
-    for (std::size_t j = 0; j < grid.nodes[1]; ++j)
-      for (std::size_t i = 0; i < grid.nodes[0]; ++i) {
-        const std::array<double, 3> at{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-        auto& p = nodes.points.emplace_back();
-        for (std::size_t d = 0; d < 3; ++d) p[d] = grid.origin[d] + at[d] * grid.spacing[d];
-      }
+  for (std::size_t i = 0; i < grid.size(); ++i) nodes.points.push_back(grid.point(i));
   nodes.values = std::move(values);
   return nodes;
 }

@@ -23,6 +23,8 @@ namespace {
 
 using Domain = Domain_3<Default_kernel>;
 
+/// In units of the bounding box's diagonal: a facet that is bent by less is as plane as the points that refinement puts on it.
+constexpr double bent = 1e-13;
 /// What a solution may leave; above that the facet has none.
 constexpr double unsolved = 1e-10;
 /// Of the tolerance: what makes a facet plane may not bring its vertices as close to each other as that.
@@ -69,7 +71,7 @@ class Planarizer {
 
   /// Where the points should be.
   std::vector<Vec_3> solution() {
-    const Plane_system system(facets_, fixed_, Plane_system::bent * domain_.diagonal);
+    const Plane_system system(facets_, fixed_, bent * domain_.diagonal);
     // Who moves too far is seen after a step or two. With the tolerance of noise there are few rounds, and the result stays what it always was.
     for (int round = 0; is_wide(domain_) && round < careful_rounds; ++round)
       if (!give_up_what_is_far(solve(system, rough_steps), true, false)) break;
@@ -93,19 +95,13 @@ class Planarizer {
       if (std::any_of(facets_[f].begin(), facets_[f].end(), [&](Index v) { return is_near[v]; })) is_on_[f] = false;
   }
 
-  /// Those that are bent with the vertices there: the input facets of each.
-  std::vector<std::vector<Index>> bent_facets(const std::vector<Vec_3>& points) const {
-    std::vector<std::vector<Index>> result;
-    for (std::size_t f = 0; f < facets_.size(); ++f)
-      if (Plane_system::bend(facets_[f], points) > unsolved * domain_.diagonal) result.push_back(domain_.facets[f].input_facets);
-    return result;
-  }
-
   Planarization report(const std::vector<Vec_3>& points) const {
     Planarization done;
-    for (const auto& facet : facets_) {
-      const bool is_bent = Plane_system::bend(facet, points) > Plane_system::bent * domain_.diagonal;
-      const bool was_bent = Plane_system::bend(facet, input_) > Plane_system::bent * domain_.diagonal;
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      const double bend = Plane_system::bend(facets_[f], points);
+      const bool is_bent = bend > bent * domain_.diagonal;
+      const bool was_bent = Plane_system::bend(facets_[f], input_) > bent * domain_.diagonal;
+      if (bend > unsolved * domain_.diagonal) done.bent.push_back(domain_.facets[f].input_facets);
       done.bent_facets += is_bent;
       done.flattened_facets += was_bent && !is_bent;
     }
@@ -128,7 +124,7 @@ class Planarizer {
     for (Index f = 0; f < facets_.size(); ++f) {
       if (facets_[f].size() < 4) continue;
       for (const Index v : facets_[f]) facets_of[v].push_back(f);
-      if (Plane_system::bend(facets_[f], points_) > Plane_system::bent * domain_.diagonal) choose(f);
+      if (Plane_system::bend(facets_[f], points_) > bent * domain_.diagonal) choose(f);
     }
     while (!next.empty()) {
       const Index f = next.back();
@@ -326,7 +322,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
   if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done);
   Plc best = plc;
   Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
-  std::optional<Dihedral_guard> guard;  // made when the first vertex is about to move
+  std::optional<Dihedral_guard> guard;  // made when the first vertex is about to move, where that may be far
   // Other triangles may lie within the tolerance of one plane once their vertices have moved.
   for (int fusing = 0; fusing < fusings; ++fusing) {
     Planarizer planarizer(domain, plc);
@@ -334,11 +330,13 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
     for (; round < most_rounds; ++round) {
       const std::vector<Vec_3> points = planarizer.solution();
       if (planarizer.is_at(points)) {
-        if (const Planarization report = planarizer.report(points); done && !report.is_none()) *done = report;
-        if (done) done->bent = planarizer.bent_facets(points);
+        if (!done) return best;
+        Planarization report = planarizer.report(points);
+        if (report.is_none()) done->bent = std::move(report.bent);
+        else *done = std::move(report);
         return best;
       }
-      if (!guard) guard.emplace(domain);
+      if (!guard && is_wide(domain)) guard.emplace(domain);
       Plc result = moved(best, domain, points);
       std::vector<Index> concerned;
       try {
@@ -346,14 +344,15 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
         const Low_corners low = low_corners(plane, plc, lowest * plane.tolerance);
         concerned = low.facets;
         // Within noise no facet falls onto another, and one that is given up stays bent: the wing section (a30) would have no end.
-        if (is_wide(domain)) guard->add_sharpened(plane, concerned);
+        if (guard) guard->add_sharpened(plane, concerned);
         for (const Input_problem& problem : validate_domain_3(plane, plc.facets.size()))
           concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
         if (concerned.empty()) {
           if (done) *done = planarizer.report(points);
-          if (std::any_of(low.inside.begin(), low.inside.end(), [](bool b) { return b; }))
+          if (std::any_of(low.inside.begin(), low.inside.end(), [](bool b) { return b; })) {
+            if (done) done->bent.clear();  // facets have other numbers then
             return without_vertices(std::move(result), plane, low.inside);
-          if (done) done->bent = planarizer.bent_facets(points);
+          }
           best = std::move(result);
           domain = std::move(plane);
           break;

@@ -15,9 +15,6 @@ class Plane_system {
  public:
   using Vertices = std::vector<Index>;
 
-  /// In units of the bounding box's diagonal: a facet that is bent by less is as plane as the points that refinement puts on it.
-  static constexpr double bent = 1e-13;
-
   /// A vertex of it may not move along the axes that are set.
   using Fixed_axes = std::array<bool, 3>;
 

@@ -3,25 +3,20 @@
 #define PGDR_IO_READ_SIZES_H
 
 #include <array>
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace pgdr {
+#include <pgdr/sizing/grid_sizing_field.h>
 
-/// The points of an image: point (i, j, k) is at `origin` + (i, j, k) * `spacing`; i runs fastest in lists of values.
-struct Image_grid {
-  std::array<double, 3> origin{}, spacing{};
-  std::array<std::size_t, 3> nodes{};
-};
+namespace pgdr {
 
 /// Values at points, as files with a background mesh have them.
 struct Nodal_values {
   std::vector<std::array<double, 3>> points;
   std::vector<double> values;
-  std::optional<Image_grid> grid;  ///< of an image
+  std::optional<Sizing_grid> grid;  ///< the points of an image
 };
 
 /// Reads an array with one component from a VTK XML file: an unstructured grid (`.vtu`), or image data (`.vti`), of one piece, little endian, in any of the encodings (ASCII,
