@@ -105,7 +105,7 @@ std::map<int, std::string> parse_names(const std::string& option, const std::vec
     const std::size_t sign = text.find('=');
     int number = 0;
     if (sign == std::string::npos || sign + 1 == text.size() || !read_all(std::string_view(text).substr(0, sign), number))
-      throw Usage_error(option + ": '" + text + "' is not a whole number, '=' and a name");
+      throw Usage_error(std::string(option).append(": '").append(text).append("' is not a whole number, '=' and a name"));
     if (!names.try_emplace(number, text.substr(sign + 1)).second) throw Usage_error(option + ": " + std::to_string(number) + " gets two names");
   }
   return names;

@@ -320,7 +320,7 @@ void add_errors(py::module_& m) {
   m.attr("InputError") = *input_error;
   py::register_exception_translator([](std::exception_ptr p) {
     try {
-      if (p) std::rethrow_exception(p);
+      if (p) std::rethrow_exception(std::move(p));
     } catch (const pgdr::Input_error& e) {
       py::object error = (*input_error)(e.what());
       py::list problems;
@@ -439,7 +439,7 @@ void add_mesh(py::module_& m) {
           [](const Mesh& mesh, const std::filesystem::path& path, bool vtu_triangles) {
             pgdr::Write_options options;
             options.vtu.triangles = vtu_triangles;
-            without_gil(0, [&] { in_range(mesh.arrays, [&](const Indexed_mesh_3& m) { pgdr::write_mesh(m, path, options); }); });
+            without_gil(0, [&] { in_range(mesh.arrays, [&](const Indexed_mesh_3& scaled) { pgdr::write_mesh(scaled, path, options); }); });
           },
           py::arg("path"), py::arg("vtu_triangles"))
       .def(

@@ -61,7 +61,7 @@ class Facet_groups {
     if (is_new) names_.push_back(found->first);
     current_ = found->second;
   }
-  void enter(std::string name) { enter(Name(std::move(name), {})); }
+  void enter(std::string name) { enter(Name(std::move(name), std::string())); }
 
   /// The next facet.
   void add_facet() {

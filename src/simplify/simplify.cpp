@@ -343,6 +343,7 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
       Plc_facet<Default_kernel> facet;
       facet.polygons = {{c[0], c[1], c[2]}};
       facet.marker = plc.facets[f].marker;
+      facet.group = plc.facets[f].group;
       result.facets.push_back(std::move(facet));
     }
   }

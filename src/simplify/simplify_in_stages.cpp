@@ -52,7 +52,6 @@ class Planarization_passes {
       plc = planarize(plc, tolerance, triangulate_, &now);
       done.flattened_facets += now.flattened_facets;
       done.bent_facets = now.bent_facets;
-      done.bent = std::move(now.bent);
       done.moved_vertices += now.moved_vertices;
       done.largest_change += now.largest_change;
     } catch (const Input_error&) {

@@ -13,7 +13,6 @@
 #include <pgdr/domain/validate_domain_3.h>
 
 #include "narrow_corners.h"
-#include "separate_bent.h"
 #include "simplify_in_stages.h"
 
 namespace pgdr {
@@ -69,7 +68,9 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   if (is_wide || !noise.done.simplification.is_none()) before = narrowness(noise.plc, coplanar_tolerance, triangulate);
   if (is_wide) {
     // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
-    for (double within = 2 * tolerance; within > fused; within /= within > tolerance ? 2 : 4) {
+    for (int attempt = 0;; ++attempt) {
+      const double within = std::ldexp(tolerance, attempt == 0 ? 1 : 2 - 2 * attempt);
+      if (!(within > fused)) break;
       Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report, &noise);
       if (report.is_none()) break;
       const auto now = narrowness(result, coplanar_tolerance, triangulate);
@@ -83,12 +84,11 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   }
   if (before || noise.done.simplification.is_none()) {
     report = noise.done;
-    return simplify_detail::separated(std::move(noise.plc), report.planarization.bent, triangulate);
+    return noise.plc;
   }
   report = {};
   try {
-    Plc result = planarize(plc, coplanar_tolerance, triangulate, &report.planarization);
-    return simplify_detail::separated(std::move(result), report.planarization.bent, triangulate);
+    return planarize(plc, coplanar_tolerance, triangulate, &report.planarization);
   } catch (const Input_error&) {
     return plc;  // what is wrong with it is said when it is understood
   }

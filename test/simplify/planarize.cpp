@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
-#include <tuple>
 #include <vector>
 
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/domain/vec_3.h>
 
-#include "../../src/simplify/separate_bent.h"
 #include "catch.h"
 #include "domain/shapes.h"
 
@@ -131,25 +128,38 @@ TEST_CASE("a needle that stood upright does not fall onto the edge it stands on"
   }
 }
 
-TEST_CASE("facets that stay bent are kept apart, but for many at once") {
+TEST_CASE("what was made plane together is what is fused") {
+  // A bar whose top is bent so little that several strips fit within the tolerance, and others once the first ones are plane.
+  constexpr Index strips = 60;
+  constexpr double radius = 1e5, half = strips / 2.0;
   Plc plc;
-  for (const auto& [x, y, z] : {std::tuple{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 5e-7}, {0.0, 1.0, 0.0}}) plc.vertices.emplace_back(x, y, z);
-  plc.facets = {{{{0, 1, 2}}, {}, 0}, {{{0, 2, 3}}, {}, 0}};
-  REQUIRE(facets_within(plc, tolerance) == 1);
-  CHECK(facets_within(simplify_detail::separated(plc, {{0, 1}}, false), tolerance) == 2);
-  CHECK(facets_within(simplify_detail::separated(plc, {}, false), tolerance) == 1);
-  // What is plane stays one facet.
-  plc.vertices[2] = {1, 1, 0};
-  CHECK(facets_within(simplify_detail::separated(plc, {{0, 1}}, false), tolerance) == 1);
-  // A fan around a corner that is lifted a little.
-  Plc fan;
-  fan.vertices.emplace_back(0, 0, 2e-7);
-  std::vector<Index> all;
-  for (Index i = 0; i < 12; ++i) {
-    fan.vertices.emplace_back(std::cos(i * std::numbers::pi / 6), std::sin(i * std::numbers::pi / 6), 0);
-    fan.facets.push_back({{{0, i + 1, (i + 1) % 12 + 1}}, {}, 0});
-    all.push_back(i);
+  const auto add = [&](double x, double z) {
+    for (const double y : {0.0, 30.0}) plc.vertices.emplace_back(0.8 * x - 0.6 * z, y, 0.6 * x + 0.8 * z);
+  };
+  for (Index i = 0; i <= strips; ++i) add(i - half, radius - std::sqrt(radius * radius - (i - half) * (i - half)));
+  add(half, -10);
+  add(-half, -10);
+  const Index columns = strips + 3;
+  std::vector<Index> front, back;
+  for (Index i = 0; i < columns; ++i) {
+    const Index a = 2 * i, b = 2 * ((i + 1) % columns);
+    for (const std::vector<Index>& t : {std::vector<Index>{a, b, a + 1}, {a + 1, b, b + 1}}) plc.facets.push_back({{t}, {}, 0});
+    front.push_back(a);
+    back.push_back(a + 1);
   }
-  REQUIRE(facets_within(fan, tolerance) == 1);
-  CHECK(facets_within(simplify_detail::separated(fan, {all}, false), tolerance) == 1);
+  plc.facets.push_back({{front}, {}, 0});
+  plc.facets.push_back({{back}, {}, 0});
+  plc = in_single_precision(std::move(plc));
+  Planarization done;
+  const Plc flat = planarize(plc, tolerance, false, &done);
+  CHECK(done.bent_facets == 0);
+  const std::size_t facets = facets_within(flat, tolerance);
+  CHECK(facets < strips / 2);
+  CHECK(facets_within(flat, rounding) == facets);
+  CHECK(meets_nowhere(flat));
+
+  // Otherwise, others would be fused.
+  Plc free = flat;
+  for (auto& f : free.facets) f.group = 0;
+  CHECK(facets_within(free, tolerance) < facets);
 }

@@ -183,7 +183,8 @@ class Mesh_complex_builder_3 {
       c3t3.set_index(vertex, typename C3t3::Index(index));
     };
     if (f.subdomain == 0) {
-      c3t3.set_dimension(vertex, -1);
+      // CGAL has -1 for such vertices, but its remeshing asserts that there are none.
+      set(3, typename C3t3::Subdomain_index(0));
     } else if (old->in_dimension() == 0 && f.edges > 0 && !(f.edges == 2 && f.same_curve)) {
       const typename C3t3::Corner_index corner(corner_(mesh_.domain().vertex_markers[old->index()], old->index()));
       c3t3.add_to_complex(vertex, corner);
@@ -207,7 +208,7 @@ class Mesh_complex_builder_3 {
 }  // namespace internal
 
 /// A refined mesh as CGAL's complex, in the user's unit: the whole Delaunay triangulation, in which the meshed cells, the subfacets and subsegments on them and the corners
-/// are in the complex. What lies outside has subdomain 0, its vertices (those of the box around the domain among them) dimension -1.
+/// are in the complex. What lies outside has subdomain 0, and its vertices (those of the box around the domain among them) are inside of that.
 ///
 /// Indices: of a cell the id of its region, of a facet and an edge the marker of the input facet and segment; as CGAL's 0 means "not in the complex", facets without a
 /// marker get the first number above all markers, edges without one a number for each segment of the domain. A vertex of the domain is a corner if edges of the

@@ -156,7 +156,7 @@ class Segment_lookup {
 /// Understands a PLC: merges exact duplicates, fuses adjacent coplanar facets, finds the segments and
 /// triangulates every fused facet.
 ///
-/// Adjacent facets are fused when they have the same marker, no explicit segment between them, and every
+/// Adjacent facets are fused when they have the same marker and group, no explicit segment between them, and every
 /// vertex within the tolerance of the plane of the group's largest facet. Otherwise input stays as it is:
 /// every input vertex remains (isolated ones too), collinear segments are not joined. The orientation of
 /// facets does not matter.
@@ -249,6 +249,7 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
   }
   problems.insert(problems.end(), reader.problems.begin(), reader.problems.end());
   if (!problems.empty()) throw Input_error(std::move(problems));
+  for (Facet_piece& piece : reader.pieces) piece.group = plc.facets[piece.input_facet].group;
 
   // Fused facets.
   sort_unique(reader.replaced);

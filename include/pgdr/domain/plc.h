@@ -29,6 +29,8 @@ struct Plc_facet {
   std::vector<typename K::Point_3> holes;
   /// Kept as the reference of every boundary triangle made from this facet.
   int marker = 0;
+  /// Fused only with neighbors of the same group: what `planarize` has made plane together.
+  Index group = 0;
 };
 
 /// A segment that the user named explicitly; it is never fused away.

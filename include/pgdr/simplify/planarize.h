@@ -3,7 +3,6 @@
 #define PGDR_SIMPLIFY_PLANARIZE_H
 
 #include <cstddef>
-#include <vector>
 
 #include <pgdr/domain/default_kernel.h>
 
@@ -15,8 +14,6 @@ struct Planarization {
   std::size_t bent_facets = 0;       ///< that stay bent: their vertices would have to move too far
   std::size_t moved_vertices = 0;
   double largest_change = 0;  ///< of a vertex, off the plane of a facet that it is on
-
-  std::vector<std::vector<Index>> bent;  ///< the facets of the result that those would be fused of, where no facet has become a polygon
 
   bool is_none() const { return moved_vertices == 0; }
 };
@@ -30,8 +27,8 @@ struct Planarization {
 /// The move is the smallest one, in the sense of least squares, that makes the facets plane: Newton's method on the vertices and the planes
 /// together. A polyhedron has enough freedom for that in general (more than its number of edges: Euler's formula). Facets on axis-aligned
 /// planes stay there. A facet whose vertices would have to leave the planes they are on by more than the tolerance stays as it is, and so
-/// does one that would intersect another, or, where the tolerance is wider than noise, fall onto it: a dihedral angle below 60 degrees that would become less than half of
-/// what it was.
+/// does one that would intersect another or fall onto it: a dihedral angle below 60 degrees that would become less than half of
+/// what it was. (Within noise it may, if facets would intersect otherwise.) The facets of the result are grouped as they are plane, so that `make_domain_3` fuses these and no others.
 /// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the PLC. The tolerance is the limit, too; along their facets
 ///   vertices may move up to 16 times as far, which is what facets at small angles to each other need.
 /// \return `plc` itself where nothing was to be done. Throws what `make_domain_3` throws

@@ -28,6 +28,7 @@ struct Piece_edge {
 struct Facet_piece {
   Index input_facet = 0;
   int marker = 0;
+  Index group = 0;
   Facet_plane plane;
   double area = 0;
   std::vector<std::array<Index, 3>> triangles;  ///< counterclockwise about `plane.normal`
@@ -193,7 +194,7 @@ class Facet_reader {
   /// \param kept edges to keep although the piece may lie on both sides, sorted.
   void add_piece(const std::vector<std::array<Index, 3>>& triangles, const Facet_plane& plane,
                  const std::vector<Index_pair>& kept) {
-    Facet_piece piece{facet_, marker_, plane, 0, triangles, {}};
+    Facet_piece piece{facet_, marker_, 0, plane, 0, triangles, {}};
     for (const auto& t : triangles) {
       piece.area += triangle_area(points_, t);
       for (std::size_t i = 0; i < 3; ++i)

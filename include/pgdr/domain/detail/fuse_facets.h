@@ -23,7 +23,7 @@ struct Facet_group {
   std::vector<Index_pair> segments;  ///< on its boundary and inside it, ascending
 };
 
-/// Fuses adjacent coplanar pieces with the same marker.
+/// Fuses adjacent coplanar pieces with the same marker and of the same group.
 ///
 /// Groups grow breadth-first from the largest piece that has no group yet. Every vertex of a group lies
 /// within the tolerance of the plane of that one piece: comparing neighbours pairwise would drift around a
@@ -114,7 +114,8 @@ class Facet_fuser {
       if (named || e.end_use - e.first_use != 2) continue;
       const Edge_use& a = uses_[e.first_use];
       const Edge_use& b = uses_[e.first_use + 1];
-      e.fusable = !a.internal && !b.internal && pieces_[a.piece].marker == pieces_[b.piece].marker;
+      const Facet_piece &p = pieces_[a.piece], &q = pieces_[b.piece];
+      e.fusable = !a.internal && !b.internal && p.marker == q.marker && p.group == q.group;
     }
   }
 
