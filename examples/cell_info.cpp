@@ -3,10 +3,9 @@
 #include <iostream>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Tetrahedral_remeshing/Remeshing_cell_base_3.h>
-#include <CGAL/Tetrahedral_remeshing/Remeshing_vertex_base_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 
+#include <pgdr/cgal/complex_triangulation_3.h>
 #include <pgdr/make_mesh_3.h>
 
 struct Material {
@@ -14,9 +13,7 @@ struct Material {
 };
 
 using K = pgdr::Epick;
-using Vb = CGAL::Tetrahedral_remeshing::Remeshing_vertex_base_3<K>;
-using Cb = CGAL::Tetrahedral_remeshing::Remeshing_cell_base_3<K, CGAL::Triangulation_cell_base_with_info_3<Material, K>>;
-using Tr = CGAL::Delaunay_triangulation_3<K, CGAL::Triangulation_data_structure_3<Vb, Cb>>;
+using Tr = pgdr::Complex_triangulation_3<K, CGAL::Triangulation_cell_base_with_info_3<Material, K>>;
 using C3t3 = CGAL::Mesh_complex_3_in_triangulation_3<Tr>;
 
 int main() {

@@ -4,15 +4,13 @@
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Tetrahedral_remeshing/Remeshing_cell_base_3.h>
-#include <CGAL/Tetrahedral_remeshing/Remeshing_vertex_base_3.h>
 #include <CGAL/boost/graph/generators.h>
 
+#include <pgdr/cgal/complex_triangulation_3.h>
 #include <pgdr/make_mesh_3.h>
 
 using K = pgdr::Epick;
-using Tds = CGAL::Triangulation_data_structure_3<CGAL::Tetrahedral_remeshing::Remeshing_vertex_base_3<K>, CGAL::Tetrahedral_remeshing::Remeshing_cell_base_3<K>>;
-using C3t3 = CGAL::Mesh_complex_3_in_triangulation_3<CGAL::Delaunay_triangulation_3<K, Tds>>;
+using C3t3 = CGAL::Mesh_complex_3_in_triangulation_3<pgdr::Complex_triangulation_3<K>>;
 
 int main() {
   CGAL::Surface_mesh<K::Point_3> surface;

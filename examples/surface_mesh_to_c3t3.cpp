@@ -6,17 +6,15 @@
 #include <CGAL/IO/output_to_vtu.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Tetrahedral_remeshing/Remeshing_triangulation_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/boost/graph/generators.h>
 #include <CGAL/tetrahedral_remeshing.h>
 
+#include <pgdr/cgal/complex_triangulation_3.h>
 #include <pgdr/make_mesh_3.h>
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vb = CGAL::Tetrahedral_remeshing::Remeshing_vertex_base_3<K>;
-using Cb = CGAL::Tetrahedral_remeshing::Remeshing_cell_base_3<K, CGAL::Triangulation_cell_base_with_info_3<int, K>>;
-using Tr = CGAL::Delaunay_triangulation_3<K, CGAL::Triangulation_data_structure_3<Vb, Cb>>;
+using Tr = pgdr::Complex_triangulation_3<K, CGAL::Triangulation_cell_base_with_info_3<int, K>>;
 using C3t3 = CGAL::Mesh_complex_3_in_triangulation_3<Tr>;
 
 int main() {

@@ -214,8 +214,8 @@ class Mesh_complex_builder_3 {
 /// marker get the first number above all markers, edges without one a number for each segment of the domain. A vertex of the domain is a corner if edges of the
 /// complex end there, but for two with the same marker.
 /// The order of vertices and cells depends on nothing but the mesh. Cells are default-constructed but for that: an `info()` of the user's is as its constructor leaves it.
-/// \tparam C3t3 for instance `CGAL::Mesh_complex_3_in_triangulation_3<Tr>` over a `CGAL::Delaunay_triangulation_3` with
-///   `CGAL::Tetrahedral_remeshing::Remeshing_vertex_base_3` and `Remeshing_cell_base_3`, which may have bases of the user's.
+/// \tparam C3t3 `CGAL::Mesh_complex_3_in_triangulation_3<Tr>` over a `CGAL::Delaunay_triangulation_3` whose vertices and cells have the indices of a mesh, for instance a
+///   `Complex_triangulation_3`.
 /// Takes 24 bytes a tetrahedron besides the result, and those of a hash table.
 template <MeshComplex C3t3, class K>
 C3t3 mesh_complex_3(const Refined_mesh_3<K>& mesh) {
