@@ -11,9 +11,9 @@
 #include <pgdr/domain/input_error.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/plc_from_domain_3.h>
-#include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 
+#include "dihedral_guard.h"
 #include "plane_system.h"
 #include "remove_vertices.h"
 
@@ -308,41 +308,6 @@ Plc without_low_vertices(Plc plc, const Domain& domain, const Low_corners& low) 
   return low.some_inside() ? without_vertices(std::move(plc), domain, low.inside) : plc;
 }
 
-/// Finds the segments where a move made a small dihedral angle of a larger one: a facet has fallen onto its neighbor.
-class Dihedral_guard {
- public:
-  explicit Dihedral_guard(const Domain& before) {
-    for_each_angle(before, [&](const auto& segment, double angle) { before_.push_back({ends(before, segment), angle}); });
-    std::ranges::sort(before_);
-  }
-
-  /// Adds the input facets at such segments.
-  void add_sharpened(const Domain& now, std::vector<Index>& input_facets) const {
-    constexpr double small = 60, much = 0.5;  // degrees, as elsewhere: above, refinement has no trouble; and of what it was
-    for_each_angle(now, [&](const auto& segment, double angle) {
-      if (angle >= small) return;
-      const auto ends_now = ends(now, segment);
-      const auto was = std::ranges::lower_bound(before_, std::pair(ends_now, 0.0));
-      if (was != before_.end() && was->first == ends_now && angle >= much * was->second) return;
-      for (const Index f : segment.facets)
-        input_facets.insert(input_facets.end(), now.facets[f].input_facets.begin(), now.facets[f].input_facets.end());
-    });
-  }
-
- private:
-  static domain_detail::Index_pair ends(const Domain& domain, const Domain::Segment& s) {
-    return domain_detail::sorted_pair(domain.input_vertex[s.vertices[0]], domain.input_vertex[s.vertices[1]]);
-  }
-
-  template <class Found>
-  static void for_each_angle(const Domain& domain, const Found& found) {
-    const std::vector<double> angles = dihedral_angles_3(domain, domain_detail::Facet_edges(domain));
-    for (std::size_t s = 0; s < angles.size(); ++s) found(domain.segments[s], angles[s]);
-  }
-
-  std::vector<std::pair<domain_detail::Index_pair, double>> before_;
-};
-
 /// What one fusing comes to.
 struct Flattened {
   Plc plc;
@@ -356,7 +321,7 @@ struct Flattened {
 std::optional<Flattened> flattened(const Plc& plc, const Plc& input, double coplanar_tolerance, bool triangulate, bool is_guarded) {
   const Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
   Planarizer planarizer(domain, input);
-  std::optional<Dihedral_guard> guard;  // made when the first vertex is about to move
+  std::optional<simplify_detail::Dihedral_guard> guard;  // made when the first vertex is about to move
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<Vec_3> points = planarizer.solution();
     if (planarizer.is_at(points)) {
