@@ -46,7 +46,7 @@ constexpr int fusings = 2;
 constexpr int most_rounds = 8;
 
 /// Whether more than noise is made plane.
-bool is_wide(const Domain& domain) { return domain.tolerance > 2 * noise * domain.diagonal; }
+bool is_wide(double tolerance, double diagonal) { return tolerance > 2 * noise * diagonal; }
 
 class Planarizer {
  public:
@@ -74,7 +74,7 @@ class Planarizer {
   std::vector<Vec_3> solution() {
     const Plane_system system(facets_, fixed_, bent * domain_.diagonal);
     // Who moves too far is seen after a step or two. With the tolerance of noise there are few rounds, and the result stays what it always was.
-    for (int round = 0; is_wide(domain_) && round < careful_rounds; ++round)
+    for (int round = 0; is_wide(domain_.tolerance, domain_.diagonal) && round < careful_rounds; ++round)
       if (!give_up_what_is_far(solve(system, rough_steps), true, false)) break;
     for (int round = 0;; ++round) {
       std::vector<Vec_3> points = solve(system, most_steps);
@@ -214,15 +214,6 @@ Plc grouped(Plc plc, const Domain& domain) {
   return plc;
 }
 
-/// The vertices of the domain that those of the PLC are, from which it was made.
-std::vector<Index> domain_vertices(const Plc& plc, const Domain& domain) {
-  std::vector<Vec_3> points;
-  for (const auto& p : plc.vertices) points.push_back(to_vec(p));
-  std::vector<Index> result = domain_detail::first_equal_vertex(points, std::vector<char>(points.size(), 0));
-  for (Index& v : result) v = static_cast<Index>(std::ranges::lower_bound(domain.input_vertex, v) - domain.input_vertex.begin());
-  return result;
-}
-
 /// With facets to be fused with whatever lies in their planes.
 Plc ungrouped(Plc plc) {
   for (auto& facet : plc.facets) facet.group = 0;
@@ -231,12 +222,13 @@ Plc ungrouped(Plc plc) {
 
 /// `plc`, which `domain` was made from, with the domain's vertices at `points`.
 Plc moved(const Plc& plc, const Domain& domain, const std::vector<Vec_3>& points) {
-  const std::vector<Index> vertex = domain_vertices(plc, domain);
+  std::vector<Vec_3> before;
+  for (const auto& p : plc.vertices) before.push_back(to_vec(p));
+  const std::vector<Index> first = domain_detail::first_equal_vertex(before, std::vector<char>(before.size(), 0));
   Plc result = plc;
-  for (std::size_t v = 0; v < vertex.size(); ++v) {
-    const Vec_3& p = points[vertex[v]];
-    result.vertices[v] = {p.x, p.y, p.z};
-  }
+  for (std::size_t v = 0; v < points.size(); ++v)
+    result.vertices[domain.input_vertex[v]] = {points[v].x, points[v].y, points[v].z};
+  for (std::size_t v = 0; v < first.size(); ++v) result.vertices[v] = result.vertices[first[v]];
   return result;
 }
 
@@ -318,19 +310,20 @@ struct Flattened {
 /// Makes the facets plane that are fused now; none where that is not valid, whatever is given up.
 /// \param input where the vertices have been before anything was moved
 /// \param is_guarded whether facets may not fall onto each other
-std::optional<Flattened> flattened(const Plc& plc, const Plc& input, double coplanar_tolerance, bool triangulate, bool is_guarded) {
+std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_tolerance, bool triangulate, bool is_guarded) {
   const Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+  plc = grouped(std::move(plc), domain);
   Planarizer planarizer(domain, input);
   std::optional<simplify_detail::Dihedral_guard> guard;  // made when the first vertex is about to move
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<Vec_3> points = planarizer.solution();
     if (planarizer.is_at(points)) {
       Planarization done = planarizer.report(points);
-      if (done.is_none()) return Flattened{plc, done, true};
-      return Flattened{without_low_vertices(grouped(plc, domain), domain, low_corners(domain, input, lowest * domain.tolerance)), done, true};
+      if (done.is_none()) return Flattened{ungrouped(std::move(plc)), done, true};
+      return Flattened{without_low_vertices(std::move(plc), domain, low_corners(domain, input, lowest * domain.tolerance)), done, true};
     }
     if (!guard && is_guarded) guard.emplace(domain);
-    Plc result = moved(grouped(plc, domain), domain, points);
+    Plc result = moved(plc, domain, points);
     std::vector<Index> concerned;
     try {
       const Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
@@ -356,10 +349,9 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
   if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done);
   Flattened best{ungrouped(plc), {}, false};
   for (int fusing = 0; fusing < fusings && !best.is_final; ++fusing) {
-    const Plc fused = ungrouped(best.plc);
-    std::optional<Flattened> next = flattened(fused, plc, coplanar_tolerance, triangulate, true);
+    std::optional<Flattened> next = flattened(ungrouped(best.plc), plc, coplanar_tolerance, triangulate, true);
     // As fused, facets may intersect that do not once they are plane: within noise, a small angle is better than none.
-    if (!next && fusing == 0 && coplanar_tolerance <= 2 * noise) next = flattened(fused, plc, coplanar_tolerance, triangulate, false);
+    if (!next && fusing == 0 && !is_wide(coplanar_tolerance, 1)) next = flattened(best.plc, plc, coplanar_tolerance, triangulate, false);
     if (!next) break;
     best = std::move(*next);
   }

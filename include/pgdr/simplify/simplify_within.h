@@ -24,8 +24,7 @@ struct Simplification_within {
 /// (`simplify`), and neighboring triangles within it of a common plane become a plane facet (`planarize`), whose edges constrain nothing any more. In
 /// CAD exports most triangles of a hundredth of a degree are strips of such facets.
 ///
-/// Where the tolerance is no more than `coplanar_tolerance` of the diagonal, what is fused anyway is all that is made plane; of what stays bent, segments keep facets from
-/// being fused.
+/// Where the tolerance is no more than `coplanar_tolerance` of the diagonal, what is fused anyway is all that is made plane.
 /// \param tolerance a length; 0 or less: nothing is changed
 /// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the result
 /// The result is valid, its distance from `plc` was measured (`surface_distance`), and it has no narrower corners than if only noise was taken
