@@ -165,9 +165,7 @@ Point_placement parse_placement(const std::string& text) {
 }
 
 Gmsh_format parse_gmsh_format(const std::string& text) {
-  if (text == "4.1") return Gmsh_format::binary_4_1;
-  if (text == "4.1-ascii") return Gmsh_format::ascii_4_1;
-  if (text == "2.2") return Gmsh_format::ascii_2_2;
+  if (const auto format = gmsh_format_named(text)) return *format;
   throw Usage_error("--gmsh-format must be 4.1, 4.1-ascii or 2.2, not '" + text + "'");
 }
 

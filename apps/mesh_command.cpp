@@ -14,6 +14,7 @@
 #include <pgdr/domain/summarize_domain_3.h>
 #include <pgdr/io/atomic_file.h>
 #include <pgdr/io/input_facets.h>
+#include <pgdr/io/outer_triangles.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/io/second_order.h>
 #include <pgdr/io/write_mesh.h>
@@ -57,6 +58,7 @@ struct Mesh_arguments {
   std::string order = "1";
   std::string gmsh_format = "4.1";
   bool vtu_triangles = false;
+  bool outer_triangles = false;
   std::string vtu_compression = "1";
   std::string min_dihedral;
   std::string optimize;
@@ -111,6 +113,8 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
       ->type_name("VERSION");
   parser.add_option("--order", arguments.order, "2: tetrahedra of second order, with a node in the middle of each (straight) edge, in the formats that have them")->type_name("N");
   parser.add_flag("--vtu-triangles", arguments.vtu_triangles, "Write the triangles on facets to .vtu files as well, with their markers and the input's facets");
+  parser.add_flag("--outer-triangles", arguments.outer_triangles,
+                  "Write no triangles between regions nor inside them, which deal.II and SU2 refuse (and check wants)");
   parser.add_option("--vtu-compression", arguments.vtu_compression, "How hard to compress .vtu files, 0 (not at all) to 9 (default 1)")->type_name("LEVEL");
   arguments.domain.add_to(parser);
   add_problems_option(parser, arguments.problems);
@@ -322,6 +326,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   const bool is_usable = !mesh.tetrahedra.empty();
   if (is_usable) {
     if (arguments.vtu_triangles) find_facets_of_files(mesh, arguments);
+    if (arguments.outer_triangles) keep_outer_triangles(mesh);
     if (parse_order(arguments.order) == 2) add_midside_nodes(mesh);
     for (const std::string& output : arguments.outputs) {
       progress.show("writing " + output);

@@ -7,7 +7,7 @@ set(pgdr_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pgdr)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/pgdrConfig.cmake.in
   ${PROJECT_BINARY_DIR}/pgdrConfig.cmake INSTALL_DESTINATION ${pgdr_package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/pgdrConfigVersion.cmake
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 
 install(TARGETS pgdr EXPORT pgdrTargets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

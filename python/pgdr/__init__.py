@@ -180,12 +180,15 @@ class Mesh:
         """
         return self._raw.check(plc, *self._how)
 
-    def write(self, path: str | os.PathLike, *, vtu_triangles: bool = False) -> None:
+    def write(self, path: str | os.PathLike, *, vtu_triangles: bool = False, gmsh_format: str = "4.1", outer_triangles: bool = False) -> None:
         """Writes a file in the format of its extension: .vtu, .vtk, .mesh (Medit), .msh (Gmsh), .inp (Abaqus), .su2 or .ele (TetGen).
 
-        Raises ValueError for other extensions, RuntimeError where the file cannot be written.
+        `vtu_triangles`: triangles in .vtu files, too. `gmsh_format`: of .msh files, "4.1" (binary), "4.1-ascii" or "2.2". `outer_triangles`: none between
+        regions nor inside them, which deal.II and SU2 refuse.
+
+        Raises ValueError for other extensions and formats, RuntimeError where the file cannot be written.
         """
-        self._raw.write(os.fspath(path), vtu_triangles)
+        self._raw.write(os.fspath(path), vtu_triangles, gmsh_format, outer_triangles)
 
     def to_meshio(self) -> Any:
         """As a `meshio.Mesh` with blocks of tetrahedra and triangles, cell data "region" and "marker", and the names as field data."""

@@ -32,6 +32,7 @@
 #include <pgdr/domain/scale.h>
 #include <pgdr/domain/valid_domain.h>
 #include <pgdr/io/medit.h>
+#include <pgdr/io/outer_triangles.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/io/second_order.h>
 #include <pgdr/io/write_mesh.h>
@@ -436,12 +437,22 @@ void add_mesh(py::module_& m) {
       .def("add_midside_nodes", [](Mesh& mesh) { without_gil(0, [&] { pgdr::add_midside_nodes(mesh.arrays); }); })
       .def(
           "write",
-          [](const Mesh& mesh, const std::filesystem::path& path, bool vtu_triangles) {
+          [](const Mesh& mesh, const std::filesystem::path& path, bool vtu_triangles, const std::string& gmsh_format, bool outer_triangles) {
             pgdr::Write_options options;
             options.vtu.triangles = vtu_triangles;
-            without_gil(0, [&] { in_range(mesh.arrays, [&](const Indexed_mesh_3& scaled) { pgdr::write_mesh(scaled, path, options); }); });
+            const auto format = pgdr::gmsh_format_named(gmsh_format);
+            if (!format) throw std::invalid_argument("gmsh_format has to be '4.1', '4.1-ascii' or '2.2', not '" + gmsh_format + "'");
+            options.gmsh = *format;
+            without_gil(0, [&] {
+              in_range(mesh.arrays, [&](const Indexed_mesh_3& scaled) {
+                if (!outer_triangles) return pgdr::write_mesh(scaled, path, options);
+                Indexed_mesh_3 outer = scaled;
+                pgdr::keep_outer_triangles(outer);
+                pgdr::write_mesh(outer, path, options);
+              });
+            });
           },
-          py::arg("path"), py::arg("vtu_triangles"))
+          py::arg("path"), py::arg("vtu_triangles"), py::arg("gmsh_format"), py::arg("outer_triangles"))
       .def(
           "check",
           [](const Mesh& mesh, const Plc* plc, double ratio, double coplanar_tolerance, bool triangulate) {

@@ -219,6 +219,13 @@ class Gmsh_writer {
 
 }  // namespace
 
+std::optional<Gmsh_format> gmsh_format_named(std::string_view name) {
+  if (name == "4.1") return Gmsh_format::binary_4_1;
+  if (name == "4.1-ascii") return Gmsh_format::ascii_4_1;
+  if (name == "2.2") return Gmsh_format::ascii_2_2;
+  return std::nullopt;
+}
+
 void write_gmsh(const Indexed_mesh_3& mesh, const std::filesystem::path& path, Gmsh_format format) {
   Gmsh_writer(mesh, path).write(format);
 }

@@ -84,6 +84,8 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
       Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report, &noise);
       if (report.is_none()) break;
       const auto now = narrowness(result, coplanar_tolerance, triangulate);
+      // Less will hardly mend what is not valid as it is, and tries cost seconds.
+      if (!now && !before && !narrowness(plc, coplanar_tolerance, triangulate)) break;
       if (!now || is_worse(*now, before, std::min(within, tolerance) / unit)) continue;
       const auto distance = surface_distance(plc, result, limit / unit);
       if (!distance || !distance->is_within) continue;

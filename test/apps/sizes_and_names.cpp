@@ -161,3 +161,15 @@ TEST_CASE("names go from the input to the groups of the output", "[apps]") {
   REQUIRE(patches.exit_code == 0);
   CHECK(file_text(sandbox / "patches.inp").find("NAME=door") != std::string::npos);
 }
+
+TEST_CASE("triangles between regions are left out for solvers that refuse them", "[apps]") {
+  const Sandbox sandbox;
+  for (const bool outer : {false, true}) {
+    const Run run = sandbox.run("mesh " + shape("two_regions.poly") + " --quiet --size 0.4 --order 2 -o out.inp" + (outer ? " --outer-triangles" : ""));
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const std::string deck = file_text(sandbox / "out.inp");
+    CHECK(deck.find("NAME=marker_1") != std::string::npos);
+    CHECK((deck.find("NAME=marker_3") == std::string::npos) == outer);
+  }
+}

@@ -105,8 +105,14 @@ def test_files():
         mesh = pgdr.mesh(pgdr.read(DATA / "two_regions.poly"), size=0.5)
         mesh.write(Path(folder) / "a.vtu", vtu_triangles=True)
         assert (Path(folder) / "a.vtu").stat().st_size > 1000
+        mesh.write(Path(folder) / "a.msh", gmsh_format="2.2", outer_triangles=True)
+        text = (Path(folder) / "a.msh").read_text()
+        inner = int((mesh.markers == 3).sum())
+        assert "$MeshFormat\n2.2 " in text and inner > 0 and f"$Elements\n{len(mesh.tetrahedra) + len(mesh.triangles) - inner}\n" in text
         with pytest.raises(ValueError):
             mesh.write(Path(folder) / "a.stl")
+        with pytest.raises(ValueError):
+            mesh.write(Path(folder) / "a.msh", gmsh_format="3")
         with pytest.raises(RuntimeError):
             mesh.write(Path(folder) / "none" / "a.vtu")
         with pytest.raises(pgdr.InputError):

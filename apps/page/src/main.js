@@ -41,11 +41,15 @@ document.body.append(element("h1", data.title));
 document.body.append(element("p", data.subtitle, { class: "subtitle" }));
 
 const holder = element("div", undefined, { class: "view" });
+// For pictures, #picture: the mesh alone.
+const start = new URLSearchParams(location.hash.slice(1));
+const is_picture = start.has("picture");
+if (is_picture) document.body.classList.add("picture");
 const status = element("p", "", { id: "status" });
 section("The mesh", holder, status);
 let view = null;
 try {
-  view = new MeshView(holder, data.mesh, status);
+  view = new MeshView(holder, data.mesh, status, start, is_picture);
 } catch (error) {
   holder.remove();
   status.textContent = `No picture: ${error.message}`;
@@ -90,7 +94,5 @@ if (data.phases && data.phases.length > 0)
   );
 document.body.append(element("footer", data.footer));
 
-// For pictures: the mesh alone.
-if (location.hash === "#picture") document.body.classList.add("picture");
 // For tests: a page opened with #test moves its plane by itself, and says in its status what it drew.
-if (view && location.hash === "#test") view.test();
+if (view && start.has("test")) view.test();

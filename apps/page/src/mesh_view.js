@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mesh in three dimensions, cut open by a plane: tetrahedra on one side of it are left out, the others coloured by their smallest
+// The mesh in three dimensions, cut open by a plane: tetrahedra on the viewer's side of it are left out, the others coloured by their smallest
 // dihedral angle. Only faces without a neighbor that is drawn are made, anew for each place of the plane.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -18,10 +18,15 @@ function color_of(degrees) {
 // Observable Plot's colours, so that regions look the same in the histograms.
 const REGIONS = ["#4269d0", "#efb118", "#ff725c", "#6cc5b0", "#3ca951", "#ff8ab7", "#a463f2", "#97bbf5", "#9c6b4e"];
 
+// From where the mesh is seen at first, and on which side of a plane across x, y or z what is behind it lies from there.
+const SEEN_FROM = new THREE.Vector3(-1.0, -1.7, 0.95).normalize();
+const BEHIND = [1, 1, -1];
+
 const FACES = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 
 export class MeshView {
-  constructor(holder, mesh, status) {
+  /** `start`: what `cut` ("x:0.3") and `colour` ("region") are at first; `is_picture`: fills the window. */
+  constructor(holder, mesh, status, start, is_picture) {
     this.points = decode(mesh.points, Float32Array);
     this.tetrahedra = decode(mesh.tetrahedra, Uint32Array);
     this.angles = decode(mesh.angles, Uint8Array);
@@ -38,7 +43,6 @@ export class MeshView {
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0xf4f5f7);
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
-    this.camera.position.set(1.1, -1.75, 1.0);
     this.camera.up.set(0, 0, 1);
     this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 1.2));
     const lamp = new THREE.DirectionalLight(0xffffff, 2.2);
@@ -52,13 +56,17 @@ export class MeshView {
     holder.append(this.renderer.domElement);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.draw());
+    this.is_moved = false;
+    this.controls.addEventListener("start", () => { this.is_moved = true; });
     this.add_panel(holder);
+    this.set_panel(start);
     const fit = () => {
-      const width = holder.clientWidth, height = Math.min(560, 0.62 * width);
+      const width = holder.clientWidth, height = is_picture ? holder.clientHeight : Math.min(560, 0.62 * width);
       this.renderer.setPixelRatio(window.devicePixelRatio);
       this.renderer.setSize(width, height);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
+      if (!this.is_moved) this.frame();
       this.draw();
     };
     new ResizeObserver(fit).observe(holder);
@@ -82,6 +90,33 @@ export class MeshView {
       this.lines.visible = this.edges.checked;
       this.draw();
     });
+  }
+
+  set_panel(start) {
+    const [axis, place] = (start.get("cut") ?? "").split(":");
+    if ("xyz".includes(axis) && axis) this.axis.value = "xyz".indexOf(axis);
+    if (place) this.place.value = place;
+    if (start.get("colour") === "region") this.color.value = "region";
+  }
+
+  /** Puts the camera where what is drawn just fits into the picture. */
+  frame() {
+    this.surface.geometry.computeBoundingBox();
+    const box = this.surface.geometry.boundingBox;
+    if (box.isEmpty()) return;
+    const center = box.getCenter(new THREE.Vector3());
+    const right = new THREE.Vector3().crossVectors(this.camera.up, SEEN_FROM).normalize();
+    const above = new THREE.Vector3().crossVectors(SEEN_FROM, right);
+    const steep = 0.94 * Math.tan((this.camera.fov / 360) * Math.PI);  // a margin
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = new THREE.Vector3(...[0, 1, 2].map((d) => (corner & (1 << d) ? box.max : box.min).getComponent(d))).sub(center);
+      const need = Math.max(Math.abs(p.dot(right)) / this.camera.aspect, Math.abs(p.dot(above))) / steep;
+      distance = Math.max(distance, p.dot(SEEN_FROM) + need);
+    }
+    this.controls.target.copy(center);
+    this.camera.position.copy(center).addScaledVector(SEEN_FROM, distance);
+    this.controls.update();
   }
 
   /** neighbors[4 t + k] is the tetrahedron behind the face opposite to corner k, or -1. By a hash table with open addressing, of faces that wait
@@ -133,9 +168,10 @@ export class MeshView {
 
   cut() {
     const axis = Number(this.axis.value), most = Number(this.most.value) * 2;
-    const plane = this.lower[axis] + Number(this.place.value) * (this.upper[axis] - this.lower[axis]);
+    const removed = BEHIND[axis] > 0 ? Number(this.place.value) : 1 - Number(this.place.value);
+    const plane = this.lower[axis] + removed * (this.upper[axis] - this.lower[axis]);
     const is_by_region = this.color.value === "region";
-    const is_drawn = (t) => this.centers[3 * t + axis] >= plane && this.angles[t] <= most;
+    const is_drawn = (t) => BEHIND[axis] * (this.centers[3 * t + axis] - plane) >= 0 && this.angles[t] <= most;
     const corners = [], colors = [], lines = [];
     let drawn = 0;
     for (let t = 0; t < this.count; ++t) {
@@ -181,6 +217,7 @@ export class MeshView {
     let radius = 1e-6;
     for (const q of p) radius = Math.max(radius, center.distanceTo(new THREE.Vector3(...q)));
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    this.is_moved = true;
     this.controls.target.copy(center);
     this.camera.near = radius / 100;
     this.camera.position.copy(center).addScaledVector(direction, 12 * radius);

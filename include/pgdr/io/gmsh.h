@@ -3,6 +3,8 @@
 #define PGDR_IO_GMSH_H
 
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include <pgdr/mesh/indexed_mesh_3.h>
 
@@ -14,6 +16,9 @@ enum class Gmsh_format {
   ascii_4_1,
   ascii_2_2    ///< what older readers know: gmshToFoam, MFEM
 };
+
+/// The format called "4.1", "4.1-ascii" or "2.2".
+std::optional<Gmsh_format> gmsh_format_named(std::string_view name);
 
 /// Writes tetrahedra, and triangles on facets, as Gmsh's `.msh` (Gmsh manual, sections "MSH file format" and "MSH file format version 2").
 ///
