@@ -30,7 +30,7 @@
 #include <pgdr/report/phase_timer.h>
 #include <pgdr/report/progress_line.h>
 #include <pgdr/report/run_summary.h>
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 
 #include "arguments.h"
 #include "command.h"
@@ -281,7 +281,7 @@ int run_mesh(const Mesh_arguments& arguments) {
       print_or_throw(problems);
     });
   }
-  const Command_line_sizing sizing = arguments.sizing.field(*domain);
+  const Combined_sizing_field sizing = arguments.sizing.field(*domain);
   const double expected = expected_vertices(*domain, sizing, p.ignore_region_sizes);
   if (p.max_vertices == 0) require_memory(expected, p.max_memory);
   progress.expect(p.max_vertices == 0 ? expected : std::min(expected, static_cast<double>(p.max_vertices)));

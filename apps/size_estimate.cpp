@@ -106,15 +106,15 @@ Sizing_box box_around(const Sizing_ball& ball) {
 
 }  // namespace
 
-double expected_vertices(const Domain& domain, const Command_line_sizing& sizing, bool ignore_region_sizes) {
+double expected_vertices(const Domain& domain, const Combined_sizing_field& sizing, bool ignore_region_sizes) {
   constexpr std::size_t in_place = 8, in_all = 16;  // samples along each axis
-  const Command_line_sizing::Local& local = sizing.local();
+  const Combined_sizing_field::Local& local = sizing.local();
   const double unit = unit_of(domain), everywhere = local.outer().radius() / unit;
   std::vector<Sizing_box> places;
   for (const Sizing_box& box : local.boxes()) places.push_back(scaled(box, unit));
   for (const Sizing_ball& ball : local.balls())
     if (ball.extent > 0) places.push_back(scaled(box_around(ball), unit));
-  const bool is_gradual = !sizing.near_surfaces().empty() || !sizing.functions().empty() || local.gradation() < Command_line_sizing::Local::no_gradation;
+  const bool is_gradual = !sizing.near_surfaces().empty() || !sizing.functions().empty() || local.gradation() < Combined_sizing_field::Local::no_gradation;
   if (everywhere == infinity && places.empty() && !is_gradual && domain.regions.empty()) return 0;  // nothing asks for a size: the volumes need not be found
   const Volumes_3<Default_kernel> volumes(domain);
   if (volumes.volumes().empty()) return 0;
@@ -134,7 +134,7 @@ double expected_vertices(const Domain& domain, const Command_line_sizing& sizing
     const double density = count(1, size);
     return {density < infinity ? density - count(1, coarse) : infinity, size};
   };
-  double slope = local.gradation() < Command_line_sizing::Local::no_gradation ? local.gradation() : 0;
+  double slope = local.gradation() < Combined_sizing_field::Local::no_gradation ? local.gradation() : 0;
   for (const Distance_sizing_field& field : sizing.near_surfaces()) slope = std::max(slope, (field.far() - field.near()) / field.reach());
   const auto more_in = [&](const Sizing_box& box, std::size_t place, std::size_t samples) {
     return integral(domain, volumes, box, samples, slope, [&](const auto& p, const Volume& v) { return more(p, v, place); });

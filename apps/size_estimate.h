@@ -2,7 +2,7 @@
 #ifndef PGDR_APPS_SIZE_ESTIMATE_H
 #define PGDR_APPS_SIZE_ESTIMATE_H
 
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 
 #include "read_domain.h"
 
@@ -10,7 +10,7 @@ namespace pgdr::app {
 
 /// Roughly how many vertices the sizes ask for, those of regions included, unless they are to be ignored: the volume by the cube of the size. Of a
 /// box, only the part that is material counts, by a few hundred samples. What the ratio bound asks for comes on top of it.
-double expected_vertices(const Domain& domain, const Command_line_sizing& sizing, bool ignore_region_sizes);
+double expected_vertices(const Domain& domain, const Combined_sizing_field& sizing, bool ignore_region_sizes);
 
 /// Refuses what would not fit into `limit` bytes by far. Throws `Size_error`.
 void require_memory(double vertices, std::size_t limit);

@@ -53,7 +53,7 @@ bool assigns(const std::string& text) {
 
 }  // namespace
 
-Command_line_sizing::Function parse_size_expression(const std::string& text) {
+Combined_sizing_field::Function parse_size_expression(const std::string& text) {
   try {
     if (text.find_first_not_of(" \t") == std::string::npos) throw Usage_error("--size-expression is empty");
     Evaluator evaluator(text);

@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 
 namespace pgdr::app {
 
 /// A size from an expression in x, y and z, as muParser reads it: "0.1 + 0.2*x", "min(1, 0.1 + 0.3*sqrt(x^2+y^2))". Each thread evaluates by a
 /// parser of its own. Throws `Usage_error` for what is no such expression.
-Command_line_sizing::Function parse_size_expression(const std::string& text);
+Combined_sizing_field::Function parse_size_expression(const std::string& text);
 
 }  // namespace pgdr::app
 

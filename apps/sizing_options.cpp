@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <pgdr/domain/scale.h>
 #include <pgdr/domain/input_error.h>
+#include <pgdr/domain/scale.h>
 #include <pgdr/io/read_sizes.h>
 #include <pgdr/report/format.h>
 #include <pgdr/sizing/curvature_sizes.h>
@@ -111,7 +111,7 @@ std::pair<std::string, std::string> parse_field(const std::string& text) {
   return {std::move(file), text.substr(colon + 1)};
 }
 
-Command_line_sizing::Function field_of(const std::string& text) {
+Combined_sizing_field::Function field_of(const std::string& text) {
   const auto [file, array] = parse_field(text);
   const Nodal_values nodes = read_nodal_values(file, array);
   try {
@@ -137,7 +137,7 @@ Distance_sizing_field sizes_on(const Domain& domain, const Facet_size& size, dou
 }
 
 /// A place that is nowhere near the domain is a slip, more often than not.
-void warn_of_places_outside(const Command_line_sizing::Local& sizes, const Domain& domain) {
+void warn_of_places_outside(const Combined_sizing_field::Local& sizes, const Domain& domain) {
   const double unit = unit_of(domain);
   const auto warn = [&](const std::string& what, const auto& lower, const auto& upper) {
     bool is_outside = false;
@@ -154,13 +154,13 @@ void warn_of_places_outside(const Command_line_sizing::Local& sizes, const Domai
 
 }  // namespace
 
-Command_line_sizing::Local Sizing_options::local() const {
+Combined_sizing_field::Local Sizing_options::local() const {
   const Uniform_sizing_field everywhere(radius_everywhere(*this));
   std::vector<Sizing_box> boxes;
   for (const std::string& box : refine_boxes) boxes.push_back(parse_sizing_box(box));
   std::vector<Sizing_ball> balls;
   for (const std::string& ball : size_balls) balls.push_back(parse_sizing_ball(ball));
-  double growth = Command_line_sizing::Local::no_gradation;
+  double growth = Combined_sizing_field::Local::no_gradation;
   if (!gradation.empty()) {
     growth = parse_positive("--gradation", gradation);
     if (!(growth < 1)) throw Usage_error("--gradation must be less than 1, because nothing bounds sizes that grow faster than the distance, not " + gradation);
@@ -169,7 +169,7 @@ Command_line_sizing::Local Sizing_options::local() const {
   } else if (std::ranges::any_of(balls, [](const Sizing_ball& ball) { return ball.extent == 0; })) {
     throw Usage_error("--size-ball: a ball with a radius of 0 needs --gradation, because no circumcenter is exactly there");
   }
-  return Command_line_sizing::Local(everywhere, std::move(boxes), std::move(balls), growth);
+  return Combined_sizing_field::Local(everywhere, std::move(boxes), std::move(balls), growth);
 }
 
 void Sizing_options::check() const {
@@ -181,8 +181,8 @@ void Sizing_options::check() const {
   if (!field_file.empty()) parse_field(field_file);
 }
 
-Command_line_sizing Sizing_options::field(const Domain& domain) const {
-  const Command_line_sizing::Local places = local();
+Combined_sizing_field Sizing_options::field(const Domain& domain) const {
+  const Combined_sizing_field::Local places = local();
   warn_of_places_outside(places, domain);
   std::vector<Distance_sizing_field> by_distance;
   if (!near_surface.empty()) {
@@ -193,10 +193,10 @@ Command_line_sizing Sizing_options::field(const Domain& domain) const {
   for (const std::string& text : facet_sizes) by_distance.push_back(sizes_on(domain, parse_facet_size(text), growth, places.outer().radius()));
   if (!curvature.empty())
     std::ranges::move(curvature_sizes(domain, parse_positive("--curvature", curvature), growth, places.outer().radius()), std::back_inserter(by_distance));
-  std::vector<Command_line_sizing::Function> functions;
+  std::vector<Combined_sizing_field::Function> functions;
   if (!expression.empty()) functions.push_back(parse_size_expression(expression));
   if (!field_file.empty()) functions.push_back(field_of(field_file));
-  return Command_line_sizing(places, std::move(by_distance), std::move(functions));
+  return Combined_sizing_field(places, std::move(by_distance), std::move(functions));
 }
 
 }  // namespace pgdr::app

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 
 #include "read_domain.h"
 
@@ -34,10 +34,10 @@ struct Sizing_options {
   void check() const;
 
   /// Warns of places outside of the domain on stderr. Throws `Usage_error` for markers that no facet has.
-  Command_line_sizing field(const Domain& domain) const;
+  Combined_sizing_field field(const Domain& domain) const;
 
  private:
-  Command_line_sizing::Local local() const;
+  Combined_sizing_field::Local local() const;
 };
 
 }  // namespace pgdr::app

@@ -20,7 +20,7 @@ int main() {
   std::cout << mesh.number_of_cells_in_complex() << " tetrahedra, ";
 
   const pgdr::Local_sizing_field<> finer(pgdr::Uniform_sizing_field(), {}, {{{0.3, 0, 0}, 0.2, 0.04}}, 0.5);
-  pgdr::refine_mesh_3(mesh, pgdr::Command_line_sizing(finer));
+  pgdr::refine_mesh_3(mesh, pgdr::Combined_sizing_field(finer));
   std::cout << mesh.number_of_cells_in_complex() << " when refined further\n";
   return mesh.triangulation().number_of_vertices() > before && mesh.triangulation().is_valid() ? 0 : 1;
 }

@@ -20,9 +20,9 @@ using C3t3 = CGAL::Mesh_complex_3_in_triangulation_3<Tr>;
 int main() {
   CGAL::Surface_mesh<K::Point_3> surface;
   CGAL::make_icosahedron(surface, K::Point_3(0, 0, 0), 1);
-  C3t3 mesh = pgdr::make_mesh_3<C3t3>(surface, pgdr::Uniform_sizing_field(0.3));
+  C3t3 mesh = pgdr::make_mesh_3<C3t3>(surface, {.edge_size = 0.4, .facet_size = 0.25, .cell_size = 0.3});
   std::cout << mesh.number_of_cells_in_complex() << " tetrahedra, ";
-  pgdr::refine_mesh_3(mesh, [](const K::Point_3& p) { return 0.08 + 0.2 * p.z() * p.z(); });
+  pgdr::refine_mesh_3(mesh, {.cell_size = [](const K::Point_3& p) { return 0.08 + 0.2 * p.z() * p.z(); }});
   std::cout << mesh.number_of_cells_in_complex() << " when refined further\n";
   for (Tr::Cell_handle cell : mesh.triangulation().finite_cell_handles()) cell->info() = mesh.is_in_complex(cell);
 

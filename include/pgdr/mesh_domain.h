@@ -9,7 +9,7 @@
 #include <pgdr/mesh/indexed_mesh_3.h>
 #include <pgdr/parameters.h>
 #include <pgdr/report/run_statistics.h>
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 
 namespace pgdr {
 
@@ -22,7 +22,7 @@ struct Meshed_domain {
 /// `refine_mesh_3` and `indexed_mesh_3` in one, compiled in the library: a front door without templates, for those who want arrays only, in a
 /// second to compile instead of half a minute. \param refined called between the two
 /// Throws what they throw.
-Meshed_domain mesh_domain(Domain_3<Default_kernel> domain, const Command_line_sizing& sizing, const Parameters& parameters = {},
+Meshed_domain mesh_domain(Domain_3<Default_kernel> domain, const Combined_sizing_field& sizing, const Parameters& parameters = {},
                           const std::function<void(const Run_statistics&)>& refined = {});
 
 }  // namespace pgdr

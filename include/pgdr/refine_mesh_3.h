@@ -30,7 +30,7 @@
 #include <pgdr/report/format.h>
 #include <pgdr/schedule/epoch_scheduler.h>
 #include <pgdr/schedule/limit_watch.h>
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
 #include <pgdr/slivers/optimize_mesh_3.h>
@@ -50,8 +50,9 @@ class Mesher_3 {
   using Clock = std::chrono::steady_clock;
 
  public:
-  Mesher_3(Domain_3<K> domain, const Parameters& parameters, Placement placement)
-      : parameters_(parameters), watch_(parameters.cancel, memory_to_refine(parameters), parameters.time_limit), placement_(std::move(placement)), mesh_(std::move(domain)), acute_(mesh_.domain()),
+  Mesher_3(Domain_3<K> domain, Sizing sizing, const Parameters& parameters, Placement placement)
+      : parameters_(parameters), watch_(parameters.cancel, memory_to_refine(parameters), parameters.time_limit), sizing_(std::move(sizing)), placement_(std::move(placement)),
+        mesh_(std::move(domain)), acute_(mesh_.domain(), size_bounds()),
         min_edge_length_(parameters.min_edge_length > 0 ? parameters.min_edge_length / unit_of(mesh_.domain())
                                                         : 1e-9 * mesh_.domain().diagonal),
         features_(mesh_.triangulation(), mesh_.complex(), acute_, min_edge_length_) {
@@ -59,7 +60,7 @@ class Mesher_3 {
     mesh_.set_radius_edge_ratio(parameters.radius_edge_ratio);
   }
 
-  Mesh run(const Sizing& sizing) {
+  Mesh run() {
     start_ = Clock::now();
     build_complex(mesh_.complex(), features_.pool(), insert_domain_vertices(mesh_.triangulation(), mesh_.domain()));
     features_.images().find_facets();
@@ -80,7 +81,7 @@ class Mesher_3 {
                                        : labeler.label_closed(Volumes_3<K>(mesh_.domain()), parameters_.ignore_region_sizes,
                                                               mesh_.statistics().volumes_left_out);
     lap("labelling");
-    const Criteria criteria(parameters_.radius_edge_ratio, sizing, mesh_.subdomains(), unit_of(mesh_.domain()));
+    const Criteria criteria(parameters_.radius_edge_ratio, sizing_, mesh_.subdomains(), unit_of(mesh_.domain()));
     if (is_conforming && reason_ == Stop_reason::finished) refine(criteria);
     if (reason_ != Stop_reason::finished) note_unrefined(criteria);
     mesh_.triangulation().restore_infinite_cell(on_hull);
@@ -104,6 +105,19 @@ class Mesher_3 {
   /// Numbering needs a third more than what is refined (docs/performance.md): 160 bytes a tetrahedron instead of 135, and 20 where it
   /// was left poor.
   static std::size_t memory_to_refine(const Parameters& parameters) { return parameters.max_memory > 0 ? std::max<std::size_t>(1, parameters.max_memory / 4 * 3) : 0; }
+
+  Size_bounds size_bounds() const {
+    const Domain_3<K>& domain = mesh_.domain();
+    Size_bounds bounds;
+    bounds.field = [this, unit = unit_of(domain)](const Vec_3& p) {
+      const double size = sizing_(typename K::Point_3(unit * p.x, unit * p.y, unit * p.z)) / unit;
+      return size >= 0 ? size : Size_bounds::unbounded;  // the refinement says what is wrong with it, if it comes there
+    };
+    const bool ignore = parameters_.ignore_region_sizes;
+    if (std::ranges::any_of(domain.regions, [ignore](const auto& r) { return (r.max_volume > 0 && !ignore) || r.max_circumradius > 0; }))
+      bounds.at_vertex = region_sizes_at_vertices(Volumes_3<K>(domain), domain, ignore);
+    return bounds;
+  }
 
   void refine(const Criteria& criteria) {
     Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_, placement_);
@@ -252,6 +266,7 @@ class Mesher_3 {
 
   Parameters parameters_;
   Limit_watch watch_;
+  Sizing sizing_;
   Placement placement_;
   Mesh mesh_;
   Acute_neighborhood_3 acute_;
@@ -284,7 +299,7 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
     throw std::invalid_argument("the smallest dihedral angle must be from 0 to " + significant(Parameters::largest_min_dihedral, 2) + " degrees");
   if (parameters.octree_depth < 0 || parameters.octree_depth > Parameters::largest_octree_depth)
     throw std::invalid_argument("the depth of the octree must be from 0 to " + std::to_string(Parameters::largest_octree_depth));
-  return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), parameters, std::move(placement)).run(sizing);
+  return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), sizing, parameters, std::move(placement)).run();
 }
 
 /// The same with Steiner points where `parameters.placement` says.
@@ -310,8 +325,8 @@ Refined_mesh_3<K> refine_mesh_3(const Piecewise_linear_complex_3<K>& plc, const 
 }
 
 // Compiled in the library, with one engine for both kinds of sizing field: a single size is no boxes.
-extern template Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Command_line_sizing&, const Parameters&);
-extern template Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Command_line_sizing&, const Parameters&);
+extern template Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel>, const Combined_sizing_field&, const Parameters&);
+extern template Refined_mesh_3<Default_kernel> refine_mesh_3(const Plc&, const Combined_sizing_field&, const Parameters&);
 template <>
 Refined_mesh_3<Default_kernel> refine_mesh_3(Domain_3<Default_kernel> domain, const Uniform_sizing_field& sizing,
                                              const Parameters& parameters);

@@ -263,7 +263,7 @@ Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet
   Mesh mesh;
   {
     // Made and destroyed with the GIL; called without.
-    const pgdr::Command_line_sizing sizing = pgdr_python::sizing_of(size, facet_sizes, curvature, gradation, domain, errors);
+    const pgdr::Combined_sizing_field sizing = pgdr_python::sizing_of(size, facet_sizes, curvature, gradation, domain, errors);
     const auto look = [&] {
       if (progress.is_none()) return;
       std::optional<pgdr::Progress> now;

@@ -56,7 +56,7 @@ std::shared_ptr<py::object> shared(const py::object& object) {
           }};
 }
 
-pgdr::Command_line_sizing::Function function_of(const py::object& object, const std::shared_ptr<First_error>& errors) {
+pgdr::Combined_sizing_field::Function function_of(const py::object& object, const std::shared_ptr<First_error>& errors) {
   return [function = shared(object), errors](const std::array<double, 3>& p) {
     const py::gil_scoped_acquire gil;
     try {
@@ -80,10 +80,10 @@ pgdr::Sizing_grid grid_of(const std::array<double, 3>& lower, const std::array<d
 
 }  // namespace
 
-pgdr::Command_line_sizing sizing_of(const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature, double gradation,
+pgdr::Combined_sizing_field sizing_of(const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature, double gradation,
                                     const pgdr::Domain_3<pgdr::Default_kernel>& domain, const std::shared_ptr<First_error>& errors) {
   pgdr::Uniform_sizing_field everywhere;
-  std::vector<pgdr::Command_line_sizing::Function> functions;
+  std::vector<pgdr::Combined_sizing_field::Function> functions;
   if (size.is_none()) {
   } else if (py::isinstance<pgdr::Grid_sizing_field>(size)) {
     functions.emplace_back([grid = size.cast<pgdr::Grid_sizing_field>()](const std::array<double, 3>& p) { return grid(Point{p}); });
@@ -113,7 +113,7 @@ pgdr::Command_line_sizing sizing_of(const py::object& size, const py::object& fa
       throw py::value_error(std::string("curvature: ") + error.what());
     }
   }
-  return pgdr::Command_line_sizing(pgdr::Command_line_sizing::Local(everywhere, {}, {}, pgdr::Command_line_sizing::Local::no_gradation), std::move(by_distance),
+  return pgdr::Combined_sizing_field(pgdr::Combined_sizing_field::Local(everywhere, {}, {}, pgdr::Combined_sizing_field::Local::no_gradation), std::move(by_distance),
                                    std::move(functions));
 }
 

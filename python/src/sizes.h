@@ -11,7 +11,7 @@
 
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/domain_3.h>
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 
 namespace pgdr_python {
 
@@ -30,7 +30,7 @@ class First_error {
 
 /// The sizing field of the arguments `size` (None, a number, a function of x, y and z, or a Grid) and `facet_sizes` (None, or a dictionary from
 /// markers, numbers or names, to sizes) and `curvature` (edges around a full turn) of `mesh`. Functions are called with the GIL held. \pre holds the GIL
-pgdr::Command_line_sizing sizing_of(const pybind11::object& size, const pybind11::object& facet_sizes, const std::optional<double>& curvature, double gradation,
+pgdr::Combined_sizing_field sizing_of(const pybind11::object& size, const pybind11::object& facet_sizes, const std::optional<double>& curvature, double gradation,
                                     const pgdr::Domain_3<pgdr::Default_kernel>& domain, const std::shared_ptr<First_error>& errors);
 
 /// Adds the classes Grid and Nodes.

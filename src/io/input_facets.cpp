@@ -9,7 +9,7 @@
 
 #include <CGAL/Simple_cartesian.h>
 
-#include <pgdr/domain/detail/aabb_triangle_tree.h>
+#include <pgdr/domain/detail/aabb_trees.h>
 #include <pgdr/domain/facet_triangles.h>
 #include <pgdr/parallel/parallel_for.h>
 

@@ -111,23 +111,24 @@ class Vtu_writer {
     out_.write("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 
     data_begin_ = out_.position();
-    if (dimensions)
-      append<std::uint8_t>(in_dimension, mesh_.points.size(),
-                           [&](std::size_t i) { return mesh_.point_dimensions[i]; });
-    append<std::int32_t>(reference, mesh_.points.size(),
-                         [&](std::size_t i) { return io_detail::reference_of(mesh_.point_references, i); });
-    append_cell_data();
+    // The last array first: meshio replaces offsets by others while it looks for the next one, and takes the first array that has it.
+    append_by_kind<std::uint8_t>(
+        types, [type = tetrahedron_type()](std::size_t) { return type; }, [type = triangle_type()](std::size_t) { return type; });
+    if (wide_)
+      append_cells<std::int64_t>(connectivity, offsets);
+    else
+      append_cells<std::int32_t>(connectivity, offsets);
     append<Indexed_mesh_3::Point>(points, mesh_.points.size(),
                                   [&, unit = unit_of(mesh_)](std::size_t i) {
                                     const auto& [x, y, z] = mesh_.points[i];
                                     return Indexed_mesh_3::Point{unit * x, unit * y, unit * z};
                                   });
-    if (wide_)
-      append_cells<std::int64_t>(connectivity, offsets);
-    else
-      append_cells<std::int32_t>(connectivity, offsets);
-    append_by_kind<std::uint8_t>(
-        types, [type = tetrahedron_type()](std::size_t) { return type; }, [type = triangle_type()](std::size_t) { return type; });
+    append_cell_data();
+    append<std::int32_t>(reference, mesh_.points.size(),
+                         [&](std::size_t i) { return io_detail::reference_of(mesh_.point_references, i); });
+    if (dimensions)
+      append<std::uint8_t>(in_dimension, mesh_.points.size(),
+                           [&](std::size_t i) { return mesh_.point_dimensions[i]; });
     out_.write("\n</AppendedData>\n</VTKFile>\n");
   }
 
@@ -184,27 +185,28 @@ class Vtu_writer {
     const auto marker = [&](std::size_t i) { return io_detail::reference_of(mesh_.triangle_references, i); };
     const auto marked = [](const std::vector<std::uint32_t>& list) { return [&list](std::size_t i) { return std::uint8_t(std::ranges::binary_search(list, i)); }; };
     const auto nothing = [](std::size_t) { return 0; };
-    append_by_kind<std::int32_t>(region_, region, nothing);
-    append_by_kind<float>(ratio_, measured([](const auto&... p) { return radius_edge_ratio(p...); }), nothing);
-    append_by_kind<float>(angle_, measured([](const auto&... p) { return smallest_dihedral_angle_deg(p...); }), nothing);
-    append_by_kind<std::uint8_t>(exempt_, marked(mesh_.exempt), nothing);
+    if (has_input_facets())
+      append_by_kind<std::int64_t>(input_facet_, [](std::size_t) { return -1; }, [&](std::size_t i) { return mesh_.triangle_input_facets[i]; });
+    if (options_.triangles) {
+      const std::vector<std::int32_t> regions = io_detail::tags_of(mesh_.tetrahedra.size(), mesh_.tetrahedron_references);
+      const std::vector<std::int32_t> markers = io_detail::tags_of(mesh_.triangles.size(), mesh_.triangle_references);
+      append_by_kind<std::int32_t>(attribute_, [&](std::size_t i) { return regions[i]; }, [&](std::size_t i) { return markers[i]; });
+      append_by_kind<std::int32_t>(marker_, nothing, marker);
+    }
     append_by_kind<std::uint8_t>(unrefined_, marked(mesh_.unrefined), nothing);
-    if (!options_.triangles) return;
-    append_by_kind<std::int32_t>(marker_, nothing, marker);
-    const std::vector<std::int32_t> regions = io_detail::tags_of(mesh_.tetrahedra.size(), mesh_.tetrahedron_references);
-    const std::vector<std::int32_t> markers = io_detail::tags_of(mesh_.triangles.size(), mesh_.triangle_references);
-    append_by_kind<std::int32_t>(attribute_, [&](std::size_t i) { return regions[i]; }, [&](std::size_t i) { return markers[i]; });
-    if (!has_input_facets()) return;
-    append_by_kind<std::int64_t>(input_facet_, [](std::size_t) { return -1; }, [&](std::size_t i) { return mesh_.triangle_input_facets[i]; });
+    append_by_kind<std::uint8_t>(exempt_, marked(mesh_.exempt), nothing);
+    append_by_kind<float>(angle_, measured([](const auto&... p) { return smallest_dihedral_angle_deg(p...); }), nothing);
+    append_by_kind<float>(ratio_, measured([](const auto&... p) { return radius_edge_ratio(p...); }), nothing);
+    append_by_kind<std::int32_t>(region_, region, nothing);
   }
 
   template <class Integer>
   void append_cells(const Data_array& connectivity, const Data_array& offsets) {
+    append<Integer>(offsets, cells_, [this](std::size_t i) { return static_cast<Integer>(offset(i + 1)); });
     append<Integer>(connectivity, offset(cells_), [&](std::size_t i) {
       const auto node_at = [](const auto& elements, std::size_t k) { return static_cast<Integer>(elements.node(k / elements.nodes_of_each(), k % elements.nodes_of_each())); };
       return i < corners_ ? node_at(tetrahedra_, i) : node_at(triangles_, i - corners_);
     });
-    append<Integer>(offsets, cells_, [this](std::size_t i) { return static_cast<Integer>(offset(i + 1)); });
   }
 
   /// A row for each cell, by what it is.

@@ -8,7 +8,7 @@
 
 #include <CGAL/Simple_cartesian.h>
 
-#include <pgdr/domain/detail/aabb_triangle_tree.h>
+#include <pgdr/domain/detail/aabb_trees.h>
 
 namespace pgdr::quality_detail {
 

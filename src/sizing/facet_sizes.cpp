@@ -13,23 +13,49 @@
 
 namespace pgdr {
 
-Distance_sizing_field::Triangle facet_triangle_of(const Domain_3<Default_kernel>& domain, const std::array<Index, 3>& corners) {
-  const double unit = unit_of(domain);
-  Distance_sizing_field::Triangle triangle;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& p = domain.vertices[corners[i]];
-    triangle[i] = {unit * p.x(), unit * p.y(), unit * p.z()};
+namespace {
+
+/// What `sizes_around` says, as a `Distance_sizing_field` takes it.
+struct Growth {
+  Growth(const Domain_3<Default_kernel>& domain, double radius, double gradation, double largest) {
+    if (!(0 < gradation && gradation < 1)) throw std::invalid_argument("the gradation must be above 0 and below 1");
+    near = (1 - gradation) * radius;
+    // No circumcenter that counts is farther away than that.
+    far = std::max(near, std::min(largest, near + 2 * gradation * unit_of(domain) * domain.diagonal));
+    reach = far > near ? (far - near) / gradation : 1;
   }
-  return triangle;
+
+  double near, far, reach;
+};
+
+bool is_among(int marker, const std::vector<int>& markers) { return markers.empty() || std::ranges::find(markers, marker) != markers.end(); }
+
+std::array<double, 3> in_users_unit(const Domain_3<Default_kernel>& domain, Index vertex) {
+  const double unit = unit_of(domain);
+  const auto& p = domain.vertices[vertex];
+  return {unit * p.x(), unit * p.y(), unit * p.z()};
+}
+
+}  // namespace
+
+Distance_sizing_field::Triangle facet_triangle_of(const Domain_3<Default_kernel>& domain, const std::array<Index, 3>& corners) {
+  return {in_users_unit(domain, corners[0]), in_users_unit(domain, corners[1]), in_users_unit(domain, corners[2])};
 }
 
 std::vector<Distance_sizing_field::Triangle> facet_triangles_of(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers) {
   std::vector<Distance_sizing_field::Triangle> triangles;
   for (const auto& facet : domain.facets) {
-    if (!markers.empty() && std::ranges::find(markers, facet.marker) == markers.end()) continue;
+    if (!is_among(facet.marker, markers)) continue;
     for (const auto& t : facet.triangles) triangles.push_back(facet_triangle_of(domain, t));
   }
   return triangles;
+}
+
+std::vector<Distance_sizing_field::Segment> segments_of(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers) {
+  std::vector<Distance_sizing_field::Segment> segments;
+  for (const auto& s : domain.segments)
+    if (is_among(s.marker, markers)) segments.push_back({in_users_unit(domain, s.vertices[0]), in_users_unit(domain, s.vertices[1])});
+  return segments;
 }
 
 std::vector<int> markers_named(const Domain_3<Default_kernel>& domain, const std::string& text) {
@@ -45,17 +71,21 @@ std::vector<int> markers_named(const Domain_3<Default_kernel>& domain, const std
 
 Distance_sizing_field sizes_around(const Domain_3<Default_kernel>& domain, const std::vector<Distance_sizing_field::Triangle>& triangles, double radius,
                                    double gradation, double largest) {
-  if (!(0 < gradation && gradation < 1)) throw std::invalid_argument("the gradation around facets must be above 0 and below 1");
-  const double near = (1 - gradation) * radius;
-  // No circumcenter that counts is farther away than that.
-  const double far = std::max(near, std::min(largest, near + 2 * gradation * unit_of(domain) * domain.diagonal));
-  return Distance_sizing_field(triangles, near, far, far > near ? (far - near) / gradation : 1);
+  const Growth growth(domain, radius, gradation, largest);
+  return Distance_sizing_field(triangles, growth.near, growth.far, growth.reach);
 }
 
 Distance_sizing_field facet_sizes(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers, double radius, double gradation, double largest) {
   const auto triangles = markers.empty() ? std::vector<Distance_sizing_field::Triangle>{} : facet_triangles_of(domain, markers);
   if (triangles.empty()) throw std::invalid_argument("no facet has the marker");
   return sizes_around(domain, triangles, radius, gradation, largest);
+}
+
+Distance_sizing_field segment_sizes(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers, double radius, double gradation, double largest) {
+  const auto segments = segments_of(domain, markers);
+  if (segments.empty()) throw std::invalid_argument(markers.empty() ? "there are no segments" : "no segment has the marker");
+  const Growth growth(domain, radius, gradation, largest);
+  return Distance_sizing_field::from_segments(segments, growth.near, growth.far, growth.reach);
 }
 
 }  // namespace pgdr

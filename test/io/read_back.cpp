@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include <pgdr/io/medit.h>
 #include <pgdr/io/write_mesh.h>
@@ -75,4 +80,18 @@ TEST_CASE("vtu: two runs write the same bytes") {
   pgdr::write_mesh(pgdr_test::sample_mesh(12), folder / "a.vtu");
   pgdr::write_mesh(pgdr_test::sample_mesh(12), folder / "b.vtu");
   CHECK(pgdr_test::content_of(folder / "a.vtu") == pgdr_test::content_of(folder / "b.vtu"));
+}
+
+TEST_CASE("vtu: the offsets of arrays descend, so that meshio finds each of them") {
+  const pgdr_test::Temporary_folder folder;
+  pgdr::Write_options options;
+  options.vtu.triangles = true;
+  pgdr::write_mesh(pgdr_test::sample_mesh(5), folder / "a.vtu", options);
+  const std::string text = pgdr_test::content_of(folder / "a.vtu");
+  const std::regex offset("offset=\"([0-9]+)\"");
+  std::vector<std::size_t> offsets;
+  for (std::sregex_iterator it(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("<AppendedData")), offset), end; it != end; ++it) offsets.push_back(std::stoul((*it)[1]));
+  CHECK(offsets.size() == 13);
+  CHECK(std::ranges::is_sorted(offsets, std::greater()));
+  CHECK(offsets.back() == 0);
 }

@@ -28,7 +28,7 @@
 namespace {
 
 pgdr::Indexed_mesh_3 meshed(const pgdr::Plc& plc, double size) {
-  return pgdr::mesh_domain(pgdr::valid_domain(plc, 1e-6), pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(size))).mesh;
+  return pgdr::mesh_domain(pgdr::valid_domain(plc, 1e-6), pgdr::Combined_sizing_field(pgdr::Uniform_sizing_field(size))).mesh;
 }
 
 std::map<int, std::size_t> counts(const std::vector<std::int32_t>& references) {

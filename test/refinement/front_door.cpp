@@ -110,7 +110,7 @@ TEST_CASE("Nothing is bounded unless asked for", "[refinement]") {
 }
 
 TEST_CASE("A sizing field with boxes is obeyed where it is fine", "[refinement]") {
-  const pgdr::Command_line_sizing sizing(pgdr::Uniform_sizing_field(0.5),
+  const pgdr::Combined_sizing_field sizing(pgdr::Uniform_sizing_field(0.5),
                                          {{{0, 0, 0}, {0.5, 0.5, 0.5}, 0.06}});
   const auto mesh = pgdr::indexed_mesh_3(pgdr::refine_mesh_3(box(), sizing));
   CHECK(failures(pgdr::check_mesh(mesh)) == "");

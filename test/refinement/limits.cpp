@@ -19,13 +19,13 @@ using pgdr::Stop_reason;
 namespace {
 
 /// Smaller and smaller boxes around a point, down to 2^-40: a field that goes to zero.
-pgdr::Command_line_sizing vanishing() {
+pgdr::Combined_sizing_field vanishing() {
   std::vector<pgdr::Sizing_box> boxes;
   for (int k = 1; k <= 40; ++k) {
     const double r = std::ldexp(1.0, -k);
     boxes.push_back({{0.4 - r, 0.45 - r, 0.55 - r}, {0.4 + r, 0.45 + r, 0.55 + r}, r});
   }
-  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(1), boxes);
+  return pgdr::Combined_sizing_field(pgdr::Uniform_sizing_field(1), boxes);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST_CASE("Sizes by distance hold where a circumradius is just the size far away
   std::vector<pgdr::Distance_sizing_field::Triangle> triangles;
   for (const double x : {0.0, 2.0}) triangles.insert(triangles.end(), {{{{x, 0, 0}, {x, 3, 0}, {x, 3, 6}}}, {{{x, 0, 0}, {x, 3, 6}, {x, 0, 6}}}});
   for (const auto& [everywhere, far] : {std::pair{std::numeric_limits<double>::infinity(), 3.5}, {3.5, 8.0}}) {
-    const pgdr::Command_line_sizing sizing(pgdr::Command_line_sizing::Local(pgdr::Uniform_sizing_field(everywhere)),
+    const pgdr::Combined_sizing_field sizing(pgdr::Combined_sizing_field::Local(pgdr::Uniform_sizing_field(everywhere)),
                                            {pgdr::Distance_sizing_field(triangles, 0.3, far, 10)});
     const pgdr::Indexed_mesh_3 mesh = pgdr::indexed_mesh_3(pgdr::refine_mesh_3(plc, sizing));
     CHECK(mesh.tetrahedra.size() > 100);
@@ -82,7 +82,7 @@ TEST_CASE("A ratio bound below 1 has no end, and one below 2 is refused", "[refi
     pgdr::Parameters parameters = up_to(limit);
     parameters.radius_edge_ratio = bound;
     using Mesher = pgdr::internal::Mesher_3<Kernel, Sizing_function, pgdr::Standard_placement>;
-    return Mesher(pgdr::make_domain_3(tilted(box({0, 0, 0}, {3, 2, 1}))), parameters, at_circumcenters).run(anything).statistics().stop;
+    return Mesher(pgdr::make_domain_3(tilted(box({0, 0, 0}, {3, 2, 1}))), anything, parameters, at_circumcenters).run().statistics().stop;
   };
   for (const std::size_t limit : {2000u, 8000u}) CHECK(stop(0.7, limit) == pgdr::Stop_reason::vertex_budget);
   CHECK(stop(2, 2000) == pgdr::Stop_reason::finished);

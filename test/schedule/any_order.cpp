@@ -14,7 +14,7 @@ using namespace pgdr_test;
 namespace {
 
 /// Random orders: each mesh is checked in full, the task zones, too, and is the same for other numbers of threads.
-void require_valid_meshes(const pgdr::Plc& plc, const pgdr::Command_line_sizing& sizing) {
+void require_valid_meshes(const pgdr::Plc& plc, const pgdr::Combined_sizing_field& sizing) {
   const std::uint64_t orders = is_nightly() ? 20 : 4;
   std::set<std::uint64_t> checksums;
   for (std::uint64_t order = 1; order <= orders; ++order) {
@@ -41,7 +41,7 @@ void require_valid_meshes(const pgdr::Plc& plc, const pgdr::Command_line_sizing&
 
 TEST_CASE("The leaves of a cube are refined in random orders", "[schedule]") {
   require_valid_meshes(pgdr::read_plc(data_file("cube.poly")),
-                       pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(0.025)));
+                       pgdr::Combined_sizing_field(pgdr::Uniform_sizing_field(0.025)));
 }
 
 TEST_CASE("The leaves around a body are refined in random orders", "[schedule]") {

@@ -40,7 +40,7 @@ Vec_3 scattered(const Poor_tetrahedron& t, double radius) {
   return c + r * Vec_3{s * std::cos(angle), s * std::sin(angle), z};
 }
 
-Mesh run(const pgdr::Plc& plc, const pgdr::Command_line_sizing& sizing, const pgdr::Parameters& parameters,
+Mesh run(const pgdr::Plc& plc, const pgdr::Combined_sizing_field& sizing, const pgdr::Parameters& parameters,
          const Placement& placement) {
   return pgdr::refine_mesh_3(pgdr::make_domain_3(plc, parameters.coplanar_tolerance, false), sizing,
                              parameters, placement);
@@ -48,7 +48,7 @@ Mesh run(const pgdr::Plc& plc, const pgdr::Command_line_sizing& sizing, const pg
 
 /// The same mesh for every number of threads, valid, with the bound kept, and other than with circumcenters.
 void require_same_mesh_with(const Placement& placement, const pgdr::Plc& plc,
-                            const pgdr::Command_line_sizing& sizing, double bound) {
+                            const pgdr::Combined_sizing_field& sizing, double bound) {
   pgdr::Parameters parameters;
   parameters.radius_edge_ratio = bound;
   parameters.check_zones = true;
@@ -77,7 +77,7 @@ const Placement near_edges{[](const Poor_tetrahedron& t) { return pgdr::Type_1_p
 
 TEST_CASE("Steiner points may be anywhere in the selection ball", "[schedule]") {
   const auto plc = pgdr::read_plc(data_file("cube.poly"));
-  const pgdr::Command_line_sizing sizing(pgdr::Uniform_sizing_field(0.023));
+  const pgdr::Combined_sizing_field sizing(pgdr::Uniform_sizing_field(0.023));
   require_same_mesh_with(in_type_1, plc, sizing, 2);
   require_same_mesh_with(in_type_1, plc, sizing, 4);
   require_same_mesh_with(in_type_2, plc, sizing, 4);

@@ -29,7 +29,7 @@ inline std::vector<std::size_t> course(const pgdr::Schedule_statistics& s) {
 
 /// A finished run, as far as it must be the same every time.
 struct Outcome {
-  Outcome(const pgdr::Plc& plc, const pgdr::Command_line_sizing& sizing, const pgdr::Parameters& parameters)
+  Outcome(const pgdr::Plc& plc, const pgdr::Combined_sizing_field& sizing, const pgdr::Parameters& parameters)
       : Outcome(pgdr::refine_mesh_3(plc, sizing, parameters)) {}
   explicit Outcome(const Mesh& refined)
       : statistics(refined.statistics()),
@@ -54,7 +54,7 @@ struct Outcome {
 };
 
 /// A bound on circumradii, the same everywhere.
-inline pgdr::Command_line_sizing size(double radius) { return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(radius)); }
+inline pgdr::Combined_sizing_field size(double radius) { return pgdr::Combined_sizing_field(pgdr::Uniform_sizing_field(radius)); }
 
 /// What `pgdr mesh -o OUT.mesh` writes.
 inline std::string medit_bytes(const pgdr::Indexed_mesh_3& mesh) {
@@ -73,14 +73,14 @@ inline std::string difference(const Outcome& a, const std::string& bytes, const 
 }
 
 /// Sizes for `data/winged_body_in_box.poly` with which its leaves run side by side.
-inline pgdr::Command_line_sizing around_the_body() {
-  return pgdr::Command_line_sizing(pgdr::Uniform_sizing_field(0.9),
+inline pgdr::Combined_sizing_field around_the_body() {
+  return pgdr::Combined_sizing_field(pgdr::Uniform_sizing_field(0.9),
                                    {{{-19.89, -5.65, -5.61}, {6.50, 8.05, 5.61}, 0.8}});
 }
 
 /// Runs with every number of threads, `repetitions` times each, and compares everything with one checked run. There
 /// must be enough to do at once, or nothing would be shown.
-inline void require_same_mesh(const pgdr::Plc& plc, const pgdr::Command_line_sizing& sizing, int repetitions,
+inline void require_same_mesh(const pgdr::Plc& plc, const pgdr::Combined_sizing_field& sizing, int repetitions,
                               pgdr::Parameters parameters = {}, std::size_t least_tasks = 100,
                               std::size_t least_ready = 8) {
   parameters.check_zones = true;

@@ -15,7 +15,7 @@ using namespace pgdr_test;
 
 namespace {
 
-const pgdr::Command_line_sizing no_size(pgdr::Uniform_sizing_field(std::numeric_limits<double>::infinity()), {});
+const pgdr::Combined_sizing_field no_size(pgdr::Uniform_sizing_field(std::numeric_limits<double>::infinity()), {});
 
 /// A ball whose surface has 2 n (m - 1) triangles; every other vertex is pulled towards the center by a share of the radius.
 pgdr::Plc ball(pgdr::Index n, pgdr::Index m, double pull) {

@@ -9,7 +9,7 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <pgdr/sizing/command_line_sizing.h>
+#include <pgdr/sizing/combined_sizing_field.h>
 #include <pgdr/sizing/sizing_field.h>
 #include <pgdr/sizing/uniform_sizing_field.h>
 
@@ -29,8 +29,8 @@ struct Linear {
 };
 
 static_assert(pgdr::SizingField<pgdr::Uniform_sizing_field, Kernel>);
-static_assert(pgdr::SizingField<pgdr::Command_line_sizing, Kernel>);
-static_assert(pgdr::SizingField<pgdr::Command_line_sizing, Exact_kernel>);
+static_assert(pgdr::SizingField<pgdr::Combined_sizing_field, Kernel>);
+static_assert(pgdr::SizingField<pgdr::Combined_sizing_field, Exact_kernel>);
 static_assert(pgdr::SizingField<pgdr::Local_sizing_field<Linear>, Kernel>);
 static_assert(pgdr::SizingField<double (*)(const Point&), Kernel>);
 static_assert(!pgdr::SizingField<double, Kernel>);
@@ -47,7 +47,7 @@ TEST_CASE("a uniform sizing field is the same everywhere", "[sizing]") {
 }
 
 TEST_CASE("the smallest bound wins where boxes overlap", "[sizing]") {
-  const pgdr::Command_line_sizing sizing(
+  const pgdr::Combined_sizing_field sizing(
       pgdr::Uniform_sizing_field(1.0),
       {{{0, 0, 0}, {2, 2, 2}, 0.5}, {{1, 1, 1}, {3, 3, 3}, 0.25}, {{1, 1, 1}, {9, 9, 9}, 4.0}});
   CHECK(sizing(Point(0.5, 0.5, 0.5)) == 0.5);
@@ -64,11 +64,11 @@ TEST_CASE("boxes refine any outer field", "[sizing]") {
   CHECK(sizing(Point(0.5, 0, 0)) == 1.5);
   CHECK(sizing(Point(3, 0, 0)) == 2.0);
   CHECK(sizing(Point(3, 2, 0)) == 4.0);
-  CHECK(pgdr::Command_line_sizing()(Point(0, 0, 0)) == infinity);
+  CHECK(pgdr::Combined_sizing_field()(Point(0, 0, 0)) == infinity);
 }
 
 TEST_CASE("balls refine, and their border belongs to them", "[sizing]") {
-  const pgdr::Command_line_sizing::Local sizing(pgdr::Uniform_sizing_field(1), {{{0, 0, 0}, {1, 1, 1}, 0.5}}, {{{0, 0, 0}, 2, 0.25}, {{9, 0, 0}, 0, 0.1}});
+  const pgdr::Combined_sizing_field::Local sizing(pgdr::Uniform_sizing_field(1), {{{0, 0, 0}, {1, 1, 1}, 0.5}}, {{{0, 0, 0}, 2, 0.25}, {{9, 0, 0}, 0, 0.1}});
   CHECK(sizing(Point(0, 0, 2)) == 0.25);
   CHECK(sizing(Point(0, 0, 2.001)) == 1);
   CHECK(sizing(Point(1, 1, 1)) == 0.25);
@@ -77,7 +77,7 @@ TEST_CASE("balls refine, and their border belongs to them", "[sizing]") {
 }
 
 TEST_CASE("with a gradation sizes grow from a place with the distance, and no faster anywhere", "[sizing]") {
-  const pgdr::Command_line_sizing::Local sizing(pgdr::Uniform_sizing_field(1), {{{0, 0, 0}, {1, 1, 1}, 0.1}, {{5, 0, 0}, {6, 1, 1}, 0.3}}, {{{0, 0, 4}, 0.5, 0.2}}, 0.25);
+  const pgdr::Combined_sizing_field::Local sizing(pgdr::Uniform_sizing_field(1), {{{0, 0, 0}, {1, 1, 1}, 0.1}, {{5, 0, 0}, {6, 1, 1}, 0.3}}, {{{0, 0, 4}, 0.5, 0.2}}, 0.25);
   CHECK(sizing(Point(0.5, 0.5, 0.5)) == 0.1);
   CHECK(sizing(Point(3, 1, 1)) == Approx(0.1 + 0.25 * 2));
   CHECK(sizing(Point(2, 2, 1)) == Approx(0.1 + 0.25 * std::sqrt(2.0)));
@@ -92,12 +92,12 @@ TEST_CASE("with a gradation sizes grow from a place with the distance, and no fa
     REQUIRE(std::abs(sizing(p) - sizing(q)) <= 0.25 * std::sqrt(CGAL::squared_distance(p, q)) + 1e-12);
   }
   for (const double scale : {1e-200, 1e200}) {
-    const pgdr::Command_line_sizing::Local scaled(pgdr::Uniform_sizing_field(scale), {{{0, 0, 0}, {scale, scale, scale}, 0.1 * scale}}, {{{0, 0, 4 * scale}, 0.5 * scale, 0.2 * scale}}, 0.25);
+    const pgdr::Combined_sizing_field::Local scaled(pgdr::Uniform_sizing_field(scale), {{{0, 0, 0}, {scale, scale, scale}, 0.1 * scale}}, {{{0, 0, 4 * scale}, 0.5 * scale, 0.2 * scale}}, 0.25);
     CHECK(scaled(Point(2 * scale, 2 * scale, scale)) == Approx((0.1 + 0.25 * std::sqrt(2.0)) * scale));
     CHECK(scaled(Point(0, scale, 4 * scale)) == Approx((0.2 + 0.25 * 0.5) * scale));
   }
   // Without a bound elsewhere, the places' grow for ever.
-  const pgdr::Command_line_sizing::Local open({}, {}, {{{0, 0, 0}, 0, 0.1}}, 0.5);
+  const pgdr::Combined_sizing_field::Local open({}, {}, {{{0, 0, 0}, 0, 0.1}}, 0.5);
   CHECK(open(Point(100, 0, 0)) == Approx(50.1));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("sizes by the distance from triangles", "[sizing]") {
   CHECK(sizing(Point(0.2, 0.2, 4.5)) == Approx(0.2));
   CHECK(sizing(Point(3, 3, 3)) == 0.5);
   CHECK(sizing.distance({3, 0, 0}) == Approx(2));
-  const pgdr::Command_line_sizing both(pgdr::Command_line_sizing::Local(pgdr::Uniform_sizing_field(0.25)), {sizing});
+  const pgdr::Combined_sizing_field both(pgdr::Combined_sizing_field::Local(pgdr::Uniform_sizing_field(0.25)), {sizing});
   CHECK(both(Point(0.2, 0.2, 0)) == 0.1);
   CHECK(both(Point(0.2, 0.2, 1)) == 0.25);
   CHECK(both(Exact_kernel::Point_3(0, 0, 0)) == 0.1);
@@ -139,7 +139,7 @@ TEST_CASE("with a limit it is known whether a size is below, wherever the surfac
       }
       const pgdr::Distance_sizing_field near(triangles, 0.01 * scale, 0.2 * scale, 0.4 * scale);
       CHECK((1 < near.area(scale) && near.area(scale) < 40));
-      const pgdr::Command_line_sizing field(pgdr::Command_line_sizing::Local(pgdr::Uniform_sizing_field(0.15 * scale)), {near});
+      const pgdr::Combined_sizing_field field(pgdr::Combined_sizing_field::Local(pgdr::Uniform_sizing_field(0.15 * scale)), {near});
       int below = 0;
       for (int i = 0; i < 3000; ++i) {
         const auto p = point();
@@ -162,12 +162,12 @@ TEST_CASE("nonsense sizes are refused", "[sizing]") {
   CHECK_THROWS_AS(pgdr::Uniform_sizing_field(0), std::invalid_argument);
   CHECK_THROWS_AS(pgdr::Uniform_sizing_field(-1), std::invalid_argument);
   CHECK_THROWS_AS(pgdr::Uniform_sizing_field(not_a_number), std::invalid_argument);
-  using pgdr::Command_line_sizing;
+  using pgdr::Combined_sizing_field;
   const pgdr::Uniform_sizing_field base;
-  CHECK_THROWS_AS(Command_line_sizing(base, {{{0, 0, 0}, {1, 1, 1}, 0}}), std::invalid_argument);
-  CHECK_THROWS_AS(Command_line_sizing(base, {{{0, 0, 0}, {1, 1, 0}, 1}}), std::invalid_argument);
-  CHECK_THROWS_AS(Command_line_sizing(base, {{{0, not_a_number, 0}, {1, 1, 1}, 1}}), std::invalid_argument);
-  using Local = Command_line_sizing::Local;
+  CHECK_THROWS_AS(Combined_sizing_field(base, {{{0, 0, 0}, {1, 1, 1}, 0}}), std::invalid_argument);
+  CHECK_THROWS_AS(Combined_sizing_field(base, {{{0, 0, 0}, {1, 1, 0}, 1}}), std::invalid_argument);
+  CHECK_THROWS_AS(Combined_sizing_field(base, {{{0, not_a_number, 0}, {1, 1, 1}, 1}}), std::invalid_argument);
+  using Local = Combined_sizing_field::Local;
   CHECK_THROWS_AS(Local(base, {}, {{{0, 0, 0}, 1, 0}}), std::invalid_argument);
   CHECK_THROWS_AS(Local(base, {}, {{{0, 0, 0}, -1, 1}}), std::invalid_argument);
   CHECK_THROWS_AS(Local(base, {}, {{{0, not_a_number, 0}, 1, 1}}), std::invalid_argument);

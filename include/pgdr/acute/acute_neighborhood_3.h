@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <CGAL/AABB_tree.h>
@@ -50,7 +51,7 @@ class Acute_neighborhood_3 {
   static constexpr double limit = 60;
 
   template <class K>
-  explicit Acute_neighborhood_3(const Domain_3<K>& domain) : wedges_(domain) {
+  explicit Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes = {}) : wedges_(domain), sizes_(std::move(sizes)) {
     const Small_angles angles = small_angles_3(domain);
     is_acute_vertex_.resize(domain.vertices.size(), false);
     list_small_angles(domain, angles);
@@ -66,7 +67,7 @@ class Acute_neighborhood_3 {
     for (Index s = 0; s < domain.segments.size(); ++s)
       if (angles.segment_deg[s] < limit)
         segments_.emplace_back(point(domain.segments[s].vertices[0]), point(domain.segments[s].vertices[1]));
-    balls_.emplace(domain, is_acute_vertex_);
+    balls_.emplace(domain, is_acute_vertex_, sizes_);
     narrow_.emplace(domain, angles);
     segment_tree_.rebuild(segments_.begin(), segments_.end());
     if (!segments_.empty()) segment_tree_.build();
@@ -117,12 +118,15 @@ class Acute_neighborhood_3 {
   }
 
   /// Whether two features meet at a small angle so near to m that it is protected there: inside the ball of the vertex, or within
-  /// `protected_part` of the length of the segment, that they meet in. On the sphere is not inside: with its point there a
+  /// `protected_part` of the length of the segment, or the size if that is less, that they meet in. On the sphere is not inside: with its point there a
   /// segment stays as it is, and without, it would be in the way of all that comes near.
   bool protects(const Vec_3& m, const Feature_id& a, const Feature_id& b) const {
     return std::ranges::any_of(angles_at(a), [&](Place place) {
-      const double radius = protected_radius(place);
-      return squared_distance_to(place, m) < radius * radius && std::ranges::binary_search(angles_at(b), place);
+      const double radius = protected_radius(place), distance2 = squared_distance_to(place, m);
+      if (!(distance2 < radius * radius) || !std::ranges::binary_search(angles_at(b), place)) return false;
+      if (!(place & segment_bit)) return true;
+      const double size = sizes_.at(m);
+      return distance2 < size * size;
     });
   }
 
@@ -189,6 +193,7 @@ class Acute_neighborhood_3 {
   }
 
   Facet_wedges_3 wedges_;
+  Size_bounds sizes_;
   std::optional<Protected_balls_3> balls_;
   std::optional<Narrow_angles_3> narrow_;
   std::vector<bool> is_acute_vertex_;

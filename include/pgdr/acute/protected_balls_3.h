@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -22,6 +23,16 @@
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
+
+/// What is asked of the size of tetrahedra, as far as it matters to what is protected at small angles. In the domain's unit.
+struct Size_bounds {
+  std::function<double(const Vec_3&)> field;  ///< the largest circumradius at a point, called from several threads; none: unbounded
+  std::vector<double> at_vertex;              ///< the same of the regions around each vertex of the domain; empty: unbounded
+
+  static constexpr double unbounded = std::numeric_limits<double>::infinity();
+  double at(const Vec_3& p) const { return field ? field(p) : unbounded; }
+  double around(Index v) const { return at_vertex.empty() ? unbounded : at_vertex[v]; }
+};
 
 /// Balls around the vertices of a domain where features meet at small angles. Features get no points inside, so that they
 /// cannot drive each other's points ever closer to a vertex: every segment that ends in it gets a point on the sphere,
@@ -42,9 +53,10 @@ class Protected_balls_3 {
   static constexpr double part = 0.25;
 
   /// `is_center[v]`: whether vertex v has a ball. Radii are powers of two, like those of the shells, at most half as large as
-  /// the distance to any feature that does not contain the vertex.
+  /// the distance to any feature that does not contain the vertex, and no larger than the size in the ball: a tetrahedron with its circumcenter there
+  /// has no larger circumradius than its distance from the vertex, so that sizes hold although nothing is inserted.
   template <class K>
-  Protected_balls_3(const Domain_3<K>& domain, const std::vector<bool>& is_center) : radius_(domain.vertices.size(), 0) {
+  Protected_balls_3(const Domain_3<K>& domain, const std::vector<bool>& is_center, const Size_bounds& sizes = {}) : radius_(domain.vertices.size(), 0) {
     for (const auto& p : domain.vertices) position_.push_back(to_vec(p));
     for (Index v = 0; v < radius_.size(); ++v)
       if (is_center[v]) radius_[v] = std::numeric_limits<double>::infinity();
@@ -54,7 +66,7 @@ class Protected_balls_3 {
     keep_clear(domain);
     for (Index v = 0; v < radius_.size(); ++v) {
       if (!(radius_[v] > 0)) continue;
-      radius_[v] = floor_power_of_two(radius_[v]);
+      radius_[v] = sized(v, floor_power_of_two(radius_[v]), sizes);
       largest_ = std::max(largest_, radius_[v]);
       const Vec_3& p = position_[v];
       centers_.insert({Kernel::Point_3(p.x, p.y, p.z), v});
@@ -95,6 +107,24 @@ class Protected_balls_3 {
 
  private:
   static constexpr double rounding = 1e-9;
+
+  /// Of a ball around v with this radius one, by halving, in which no size is smaller than its radius, as far as samples tell.
+  double sized(Index v, double radius, const Size_bounds& sizes) const {
+    constexpr double least_part = 0x1p-20;  // a field may go to 0, and then the minimum edge length ends the refinement, not the ball
+    const auto is_finer = [&](double r) {
+      if (sizes.around(v) < r) return true;
+      for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+          for (int z = -1; z <= 1; ++z) {
+            const Vec_3 d{double(x), double(y), double(z)};
+            if (sizes.at(position_[v] + (r / std::max(1.0, length(d))) * d) < r) return true;
+          }
+      return false;
+    };
+    double r = radius;
+    while (r > least_part * radius && is_finer(r)) r /= 2;
+    return r;
+  }
 
   /// Makes balls smaller where a feature is close that does not contain their centers.
   template <class K>

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/acute/narrow_angles_3.h>
@@ -37,11 +38,12 @@ struct Split_guard {
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
   double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex inherits
   bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
+  bool is_for_size = false;             ///< the client is too large: what the size asks for makes no edge shorter than a part of it
   bool is_strict = false;               ///< the floor holds everywhere
 
   /// Whether the client is given up as soon as one piece in its way refuses: with an edge as short as a small angle makes it, unless
-  /// that is much shorter than what is around.
-  bool gives_up_at_once() const { return is_at_wedge || floor_apart > 0; }
+  /// that is much shorter than what is around, or the client is too large.
+  bool gives_up_at_once() const { return !is_for_size && (is_at_wedge || floor_apart > 0); }
   /// Whether one of the points is next to a small angle.
   bool is_near(const Acute_neighborhood_3& acute) const {
     return std::any_of(where.begin(), where.begin() + static_cast<std::ptrdiff_t>(count),
@@ -104,10 +106,10 @@ double inherited_radius(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
 /// more: the edge is as short as the angle makes it, and splits could go on towards the place where they meet. (Theorem 5 in
 /// docs/theory.md asks for all of the edge; what that costs is said there.) Where that place is a vertex, pieces that do not touch it may be split down to half
 /// of the edge after all: away from the vertex its length is bounded from below. That costs as many points as insertion radii
-/// fit the edge more than once, so it is done up to a ratio of `most_points` only. A tetrahedron that is only too large may
-/// also halve its circumradius.
+/// fit the edge more than once, so it is done up to a ratio of `most_points` only.
+/// \param size the bound that the tetrahedron is over, if there is one: then edges of half of that may be made, too
 template <class Cell_handle>
-Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners, bool is_over_ratio,
+Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners, std::optional<double> size,
                         const Acute_neighborhood_3& acute) {
   constexpr double most_points = 10;  // table in docs/robustness.md
   Split_guard guard{.floor = 0.5 * std::sqrt(ball.squared_shortest), .where = corners, .count = 4,
@@ -125,7 +127,8 @@ Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
     guard.meeting = {a, b};
     guard.floor_apart = 0.5 * std::sqrt(ball.squared_shortest);
   });
-  if (!is_over_ratio) guard.floor = std::min(guard.floor, 0.5 * std::sqrt(ball.squared_radius));
+  guard.is_for_size = size.has_value();
+  if (size) guard.floor = std::min(guard.floor, 0.5 * *size);
   guard.floor_apart = std::min(guard.floor_apart, guard.floor);
   return guard;
 }

@@ -14,6 +14,14 @@ namespace pgdr {
 /// The largest power of two that is at most x. \pre x is positive and finite
 inline double floor_power_of_two(double x) { return std::ldexp(1.0, std::ilogb(x)); }
 
+/// The largest power of two whose cube is at most x > 0.
+inline double floor_cube_root(double x) {
+  double r = floor_power_of_two(std::cbrt(x));  // cube roots differ between C libraries
+  while (r * r * r > x) r /= 2;
+  while (8 * r * r * r <= x) r *= 2;
+  return r;
+}
+
 /// The smallest power of two that is at least x. \pre x is positive and finite
 inline double ceil_power_of_two(double x) {
   const double below = floor_power_of_two(x);

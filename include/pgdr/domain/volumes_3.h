@@ -3,6 +3,7 @@
 #define PGDR_DOMAIN_VOLUMES_3_H
 
 #include <algorithm>
+#include <cmath>
 #include <compare>
 #include <cstddef>
 #include <limits>
@@ -18,6 +19,7 @@
 #include <pgdr/domain/detail/facet_sides.h>
 #include <pgdr/domain/detail/triangle_soup.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/reproducible_functions.h>
 
 namespace pgdr {
 
@@ -280,6 +282,27 @@ class Volumes_3 {
 template <class K>
 Volumes_3<K> volumes_3(const Domain_3<K>& domain) {
   return Volumes_3<K>(domain);
+}
+
+/// A power of two, at most the circumradius of the regular tetrahedron with a volume, which has more than all others in its circumsphere.
+inline double circumradius_for(double volume) { return floor_cube_root(9 * std::sqrt(3.0) / 8 * volume); }
+
+/// For each vertex of the domain the largest circumradius that the bounds of the volumes around it allow, or infinity.
+template <class K>
+std::vector<double> region_sizes_at_vertices(const Volumes_3<K>& volumes, const Domain_3<K>& domain, bool ignore_max_volume) {
+  const auto size_of = [ignore_max_volume](const Volume& v) {
+    double size = v.max_circumradius > 0 ? v.max_circumradius : std::numeric_limits<double>::infinity();
+    if (v.max_volume > 0 && !ignore_max_volume) size = std::min(size, circumradius_for(v.max_volume));
+    return size;
+  };
+  std::vector<double> sizes(domain.vertices.size(), std::numeric_limits<double>::infinity());
+  for (Index f = 0; f < domain.facets.size(); ++f)
+    for (std::size_t t = 0; t < domain.facets[f].triangles.size(); ++t)
+      for (const bool front : {false, true}) {
+        const double size = size_of(volumes.volumes()[volumes.beside(f, t, front)]);
+        for (const Index v : domain.facets[f].triangles[t]) sizes[v] = std::min(sizes[v], size);
+      }
+  return sizes;
 }
 
 // Compiled in the library.

@@ -843,10 +843,18 @@ class Delaunay_leaf_refiner_3 {
     return w.features_.cavity().squared_insertion_radius(p) < least * least;
   }
 
+  /// The bound of size that a tetrahedron is over, if it is; outside, where the octree wants it smaller, its radius, unless the ratio does as well.
+  std::optional<double> size_over(const Attempt& t) const {
+    if (t.is_outside()) return criteria_.is_over_ratio(t.ball) ? std::nullopt : std::optional(std::sqrt(t.ball.squared_radius));
+    const std::int32_t subdomain = t.id.cell->subdomain();
+    return criteria_.is_over_size(t.ball, subdomain) ? std::optional(criteria_.size_bound(t.ball, subdomain)) : std::nullopt;
+  }
+
   /// Splits an obstacle for a tetrahedron's sake: with the floor of its guard everywhere if one lets itself be split like that, else,
   /// away from small angles, without. False if no obstacle is left.
   bool make_room(Worker& w, Attempt& t, Worklist& list, Drain_result& result) const {
-    Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, criteria_.is_over_ratio(t.ball), acute_);
+    Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, size_over(t), acute_);
+    guard.is_for_size &= !t.is_outside();
     guard.is_strict = t.tried.is_strict;
     if (splits_obstacle(w, t, guard, list, result)) return true;
     if (!t.tried.is_strict || guard.is_near(acute_)) return false;

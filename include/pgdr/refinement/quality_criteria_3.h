@@ -2,6 +2,7 @@
 #ifndef PGDR_REFINEMENT_QUALITY_CRITERIA_3_H
 #define PGDR_REFINEMENT_QUALITY_CRITERIA_3_H
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <CGAL/number_utils.h>
 
 #include <pgdr/conforming/subdomains_3.h>
+#include <pgdr/domain/volumes_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/report/format.h>
 #include <pgdr/sizing/sizing_field.h>
@@ -51,6 +53,15 @@ class Quality_criteria_3 {
     }
     const double r = size_at(b.center);
     return b.squared_radius > r * r;
+  }
+
+  /// The bound of the circumradius of a tetrahedron that is over one of size; of a volume, what `circumradius_for` makes of it.
+  double size_bound(const Tetrahedron_ball& b, std::int32_t subdomain) const {
+    const Subdomain& s = subdomains_[static_cast<std::size_t>(subdomain)];
+    double bound = size_at(b.center);
+    if (s.max_circumradius > 0) bound = std::min(bound, s.max_circumradius);
+    if (s.max_volume > 0) bound = std::min(bound, circumradius_for(s.max_volume));
+    return bound;
   }
 
   /// The sizing field, without the bounds of subdomains. Throws `Sizing_error`.

@@ -11,18 +11,22 @@
 
 namespace pgdr {
 
-/// A sizing field by the distance from triangles: `near` on them, `far` at the distance `reach` and beyond, linear in between.
+/// A sizing field by the distance from triangles, or segments: `near` on them, `far` at the distance `reach` and beyond, linear in between.
 ///
-/// Sizes are those of circumcenters: a tetrahedron that touches the triangles has a circumradius of at most near / (1 - slope), with the
+/// Sizes are those of circumcenters: a tetrahedron that touches them has a circumradius of at most near / (1 - slope), with the
 /// slope (far - near) / reach, and only where that is below 1 is there a bound at all.
 ///
 /// Distances are those of double arithmetic (CGAL's AABB tree), the same on every thread. Copies share the tree.
 class Distance_sizing_field {
  public:
   using Triangle = std::array<std::array<double, 3>, 3>;
+  using Segment = std::array<std::array<double, 3>, 2>;
 
   /// Throws `std::invalid_argument` unless 0 < near <= far < infinity, far - near < reach < infinity and there is a triangle with an area.
   Distance_sizing_field(const std::vector<Triangle>& triangles, double near, double far, double reach);
+
+  /// The same from segments. Throws as well unless there is one with a length.
+  static Distance_sizing_field from_segments(const std::vector<Segment>& segments, double near, double far, double reach);
 
   template <class Point_3>
   double operator()(const Point_3& p) const {
@@ -35,14 +39,14 @@ class Distance_sizing_field {
     return size_within(coordinates(p), limit());
   }
 
-  /// From the nearest of the triangles, or `most` if that is less.
+  /// From the nearest of the triangles or segments, or `most` if that is less.
   double distance(const std::array<double, 3>& p, double most = std::numeric_limits<double>::infinity()) const;
 
-  /// On the triangles.
+  /// On the triangles or segments.
   double near() const { return near_; }
   double far() const { return far_; }
   double reach() const { return reach_; }
-  /// Of all triangles together, in squares of this unit of length.
+  /// Of all triangles together, in squares of this unit of length; 0 of segments.
   double area(double unit = 1) const;
 
  private:
@@ -55,6 +59,12 @@ class Distance_sizing_field {
   double size_within(const std::array<double, 3>& p, double limit) const;
 
   struct Tree;
+  template <class Objects>
+  struct Tree_of;
+
+  /// Without a tree yet.
+  Distance_sizing_field(double near, double far, double reach);
+
   std::shared_ptr<const Tree> tree_;
   double near_, far_, reach_;
 };

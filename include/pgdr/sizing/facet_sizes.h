@@ -19,6 +19,9 @@ Distance_sizing_field::Triangle facet_triangle_of(const Domain_3<Default_kernel>
 /// The triangles of the facets with one of some markers, or of all where there are none, in the user's unit of length.
 std::vector<Distance_sizing_field::Triangle> facet_triangles_of(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers = {});
 
+/// The segments with one of some markers, or all where there are none, in the user's unit of length.
+std::vector<Distance_sizing_field::Segment> segments_of(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers = {});
+
 /// The markers that a text means: all with that name, else the number that it is.
 std::vector<int> markers_named(const Domain_3<Default_kernel>& domain, const std::string& text);
 
@@ -35,6 +38,10 @@ Distance_sizing_field sizes_around(const Domain_3<Default_kernel>& domain, const
 /// The same for the facets with one of some markers. Throws `std::invalid_argument` where there are none, too.
 Distance_sizing_field facet_sizes(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers, double radius, double gradation = 0.5,
                                   double largest = std::numeric_limits<double>::infinity());
+
+/// The same for the segments with one of some markers, or all of them where there are none. Throws `std::invalid_argument` where there is no segment, too.
+Distance_sizing_field segment_sizes(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers, double radius, double gradation = 0.5,
+                                    double largest = std::numeric_limits<double>::infinity());
 
 }  // namespace pgdr
 

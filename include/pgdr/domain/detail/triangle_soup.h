@@ -13,7 +13,7 @@
 
 #include <CGAL/Exact_rational.h>
 
-#include <pgdr/domain/detail/aabb_triangle_tree.h>
+#include <pgdr/domain/detail/aabb_trees.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_SIZING_COMMAND_LINE_SIZING_H
-#define PGDR_SIZING_COMMAND_LINE_SIZING_H
+#ifndef PGDR_SIZING_COMBINED_SIZING_FIELD_H
+#define PGDR_SIZING_COMBINED_SIZING_FIELD_H
 
 #include <algorithm>
 #include <array>
@@ -19,15 +19,15 @@ namespace pgdr {
 /// The sizing field that the options of `pgdr mesh` describe, and the one that the library is compiled for: a bound everywhere, finer ones in
 /// places, by the distance from surfaces, and by any functions. The smallest one wins; a value that is negative or no number does, too, so that it
 /// is found.
-class Command_line_sizing {
+class Combined_sizing_field {
  public:
   using Local = Local_sizing_field<Uniform_sizing_field>;
   /// From coordinates in the user's unit; called from several threads at once. `SizingField` says what it may return.
   using Function = std::function<double(const std::array<double, 3>&)>;
 
-  Command_line_sizing() = default;
-  explicit Command_line_sizing(Uniform_sizing_field everywhere, std::vector<Sizing_box> boxes = {}) : local_(everywhere, std::move(boxes)) {}
-  explicit Command_line_sizing(Local local, std::vector<Distance_sizing_field> near_surfaces = {}, std::vector<Function> functions = {})
+  Combined_sizing_field() = default;
+  explicit Combined_sizing_field(Uniform_sizing_field everywhere, std::vector<Sizing_box> boxes = {}) : local_(everywhere, std::move(boxes)) {}
+  explicit Combined_sizing_field(Local local, std::vector<Distance_sizing_field> near_surfaces = {}, std::vector<Function> functions = {})
       : local_(std::move(local)), near_surfaces_(std::move(near_surfaces)), functions_(std::move(functions)) {}
 
   template <class Point_3>
