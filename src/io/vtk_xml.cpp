@@ -241,9 +241,9 @@ std::vector<double> Vtk_xml::decoded(Bytes bytes, std::string_view type) const {
     std::size_t at = 0;
     for (std::uint64_t b = 0; b < blocks; ++b) {
       const std::uint64_t size = b + 1 == blocks && last_size > 0 ? last_size : block_size;
-      constexpr std::uint64_t most = std::uint64_t{1} << 30;
-      if (size > most) fail_short();
+      constexpr std::uint64_t most = std::uint64_t{1} << 30, most_per_byte = 1032;  // which is what deflate can do
       if (header_number(header, 3 + b) > packed.size() - at) fail_short();
+      if (size > most || size / most_per_byte > header_number(header, 3 + b)) fail_short();
       const std::size_t old = data.size();
       data.resize(old + size);
       uLongf length = size;

@@ -111,15 +111,11 @@ class Protected_balls_3 {
   /// Of a ball around v with this radius one, by halving, in which no size is smaller than its radius, as far as samples tell.
   double sized(Index v, double radius, const Size_bounds& sizes) const {
     constexpr double least_part = 0x1p-20;  // a field may go to 0, and then the minimum edge length ends the refinement, not the ball
+    const double at_center = std::min(sizes.around(v), sizes.at(position_[v]));
     const auto is_finer = [&](double r) {
-      if (sizes.around(v) < r) return true;
-      for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y)
-          for (int z = -1; z <= 1; ++z) {
-            const Vec_3 d{double(x), double(y), double(z)};
-            if (sizes.at(position_[v] + (r / std::max(1.0, length(d))) * d) < r) return true;
-          }
-      return false;
+      if (at_center < r) return true;
+      const auto is_finer_at = [&](const Vec_3& d) { return sizes.at(position_[v] + r * d) < r; };
+      return std::ranges::any_of(std::array<Vec_3, 6>{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}}, is_finer_at);
     };
     double r = radius;
     while (r > least_part * radius && is_finer(r)) r /= 2;
