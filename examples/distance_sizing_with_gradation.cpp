@@ -12,7 +12,7 @@ int main() {
   const pgdr::Distance_sizing_field near_bottom({{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}, 0.03, 0.2, 0.5);
   // 0.02 in a ball around the middle of the top; from there it grows by 0.3 for each unit of distance, up to 0.2.
   const pgdr::Local_sizing_field<> around_point(pgdr::Uniform_sizing_field(0.2), {}, {{{0.5, 0.5, 1}, 0.05, 0.02}}, 0.3);
-  // The smallest of all wins. The library is compiled for this field; with another one, an engine is compiled for it here.
+  // The smallest of all wins.
   const pgdr::Combined_sizing_field sizing(around_point, {near_bottom});
 
   const pgdr::Indexed_mesh_3 mesh = pgdr::indexed_mesh_3(pgdr::refine_mesh_3(cube(), sizing));

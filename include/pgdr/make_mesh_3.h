@@ -14,8 +14,7 @@
 
 namespace pgdr {
 
-/// Meshes a PLC and returns CGAL's complex: `refine_mesh_3`, then `mesh_complex_3`, which say what is promised and thrown. With a field that is not
-/// a `Combined_sizing_field` an engine is compiled for it; with `Mesh_criteria_3` (below) it is the library's.
+/// Meshes a PLC and returns CGAL's complex: `refine_mesh_3`, then `mesh_complex_3`, which say what is promised and thrown.
 template <MeshComplex C3t3, SizingField<Default_kernel> Sizing>
 C3t3 make_mesh_3(const Plc& plc, const Sizing& sizing, const Parameters& parameters = {}) {
   return mesh_complex_3<C3t3>(refine_mesh_3(plc, sizing, parameters));

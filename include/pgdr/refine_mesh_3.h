@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <concepts>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -109,9 +110,16 @@ class Mesher_3 {
   Size_bounds size_bounds() const {
     const Domain_3<K>& domain = mesh_.domain();
     Size_bounds bounds;
-    bounds.field = [this, unit = unit_of(domain)](const Vec_3& p) {
-      const double size = sizing_(typename K::Point_3(unit * p.x, unit * p.y, unit * p.z)) / unit;
-      return size >= 0 ? size : Size_bounds::unbounded;  // the refinement says what is wrong with it, if it comes there
+    // What is wrong with a value is said when the refinement comes there.
+    bounds.is_field_below = [this, unit = unit_of(domain)](const Vec_3& p, double length) {
+      const typename K::Point_3 q(unit * p.x, unit * p.y, unit * p.z);
+      const double limit = unit * length;
+      double size;
+      if constexpr (LimitedSizingField<Sizing, K>)
+        size = sizing_.size_if_below(q, [limit] { return limit; });
+      else
+        size = sizing_(q);
+      return size >= 0 && size < limit;
     };
     const bool ignore = parameters_.ignore_region_sizes;
     if (std::ranges::any_of(domain.regions, [ignore](const auto& r) { return (r.max_volume > 0 && !ignore) || r.max_circumradius > 0; }))
@@ -302,11 +310,15 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
   return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), sizing, parameters, std::move(placement)).run();
 }
 
-/// The same with Steiner points where `parameters.placement` says.
+/// The same with Steiner points where `parameters.placement` says. With the default kernel the engine is the library's, which calls a field of the user's
+/// through a `std::function`; a `LimitedSizingField` of the user's gets an engine of its own.
 template <class K, class Sizing>
   requires SizingField<Sizing, K>
 Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const Parameters& parameters = {}) {
-  return refine_mesh_3(std::move(domain), sizing, parameters,
+  if constexpr (std::same_as<K, Default_kernel> && (!LimitedSizingField<Sizing, K> || std::same_as<Sizing, Distance_sizing_field>))
+    return refine_mesh_3(std::move(domain), Combined_sizing_field::of(sizing), parameters);
+  else
+    return refine_mesh_3(std::move(domain), sizing, parameters,
                        Standard_placement{parameters.placement, {cosine_of_degrees(angle_of_choice(parameters.min_dihedral))}});
 }
 

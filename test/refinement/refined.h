@@ -24,7 +24,7 @@ namespace pgdr_test {
 
 using Mesh = pgdr::Refined_mesh_3<pgdr::Default_kernel>;
 
-/// For sizes and placements that the library does not compile: one more engine for all of these tests.
+/// For placements that the library does not compile: one more engine for all of these tests.
 using Sizing_function = std::function<double(const pgdr::Default_kernel::Point_3&)>;
 
 inline Sizing_function same_size(double size) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -124,9 +125,7 @@ class Acute_neighborhood_3 {
     return std::ranges::any_of(angles_at(a), [&](Place place) {
       const double radius = protected_radius(place), distance2 = squared_distance_to(place, m);
       if (!(distance2 < radius * radius) || !std::ranges::binary_search(angles_at(b), place)) return false;
-      if (!(place & segment_bit)) return true;
-      const double size = sizes_.at(m);
-      return distance2 < size * size;
+      return !(place & segment_bit) || !sizes_.is_below(m, std::sqrt(distance2));
     });
   }
 

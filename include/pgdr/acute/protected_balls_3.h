@@ -26,12 +26,12 @@ namespace pgdr {
 
 /// What is asked of the size of tetrahedra, as far as it matters to what is protected at small angles. In the domain's unit.
 struct Size_bounds {
-  std::function<double(const Vec_3&)> field;  ///< the largest circumradius at a point, called from several threads; none: unbounded
-  std::vector<double> at_vertex;              ///< the same of the regions around each vertex of the domain; empty: unbounded
+  /// Whether the largest circumradius at a point is less than a length; called from several threads. None: unbounded.
+  std::function<bool(const Vec_3&, double)> is_field_below;
+  std::vector<double> at_vertex;  ///< the largest circumradius in the regions around each vertex of the domain; empty: unbounded
 
-  static constexpr double unbounded = std::numeric_limits<double>::infinity();
-  double at(const Vec_3& p) const { return field ? field(p) : unbounded; }
-  double around(Index v) const { return at_vertex.empty() ? unbounded : at_vertex[v]; }
+  bool is_below(const Vec_3& p, double length) const { return is_field_below && is_field_below(p, length); }
+  bool is_below(Index v, double length) const { return !at_vertex.empty() && at_vertex[v] < length; }
 };
 
 /// Balls around the vertices of a domain where features meet at small angles. Features get no points inside, so that they
@@ -111,11 +111,10 @@ class Protected_balls_3 {
   /// Of a ball around v with this radius one, by halving, in which no size is smaller than its radius, as far as samples tell.
   double sized(Index v, double radius, const Size_bounds& sizes) const {
     constexpr double least_part = 0x1p-20;  // a field may go to 0, and then the minimum edge length ends the refinement, not the ball
-    const double at_center = std::min(sizes.around(v), sizes.at(position_[v]));
     const auto is_finer = [&](double r) {
-      if (at_center < r) return true;
-      const auto is_finer_at = [&](const Vec_3& d) { return sizes.at(position_[v] + r * d) < r; };
-      return std::ranges::any_of(std::array<Vec_3, 6>{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}}, is_finer_at);
+      if (sizes.is_below(v, r) || sizes.is_below(position_[v], r)) return true;
+      return std::ranges::any_of(std::array<Vec_3, 6>{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}},
+                                 [&](const Vec_3& d) { return sizes.is_below(position_[v] + r * d, r); });
     };
     double r = radius;
     while (r > least_part * radius && is_finer(r)) r /= 2;

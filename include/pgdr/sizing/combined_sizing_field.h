@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include <CGAL/number_utils.h>
 
+#include <pgdr/domain/default_kernel.h>
 #include <pgdr/sizing/distance_sizing_field.h>
 #include <pgdr/sizing/local_sizing_field.h>
+#include <pgdr/sizing/sizing_field.h>
 
 namespace pgdr {
 
@@ -29,6 +32,17 @@ class Combined_sizing_field {
   explicit Combined_sizing_field(Uniform_sizing_field everywhere, std::vector<Sizing_box> boxes = {}) : local_(everywhere, std::move(boxes)) {}
   explicit Combined_sizing_field(Local local, std::vector<Distance_sizing_field> near_surfaces = {}, std::vector<Function> functions = {})
       : local_(std::move(local)), near_surfaces_(std::move(near_surfaces)), functions_(std::move(functions)) {}
+
+  /// Of any field of points of the default kernel.
+  template <SizingField<Default_kernel> Sizing>
+  static Combined_sizing_field of(const Sizing& sizing) {
+    if constexpr (std::constructible_from<Local, const Sizing&>)
+      return Combined_sizing_field(Local(sizing));
+    else if constexpr (std::same_as<Sizing, Distance_sizing_field>)
+      return Combined_sizing_field(Local(), {sizing});
+    else
+      return Combined_sizing_field(Local(), {}, {[sizing](const std::array<double, 3>& p) -> double { return sizing(Default_kernel::Point_3(p[0], p[1], p[2])); }});
+  }
 
   template <class Point_3>
   double operator()(const Point_3& p) const {
