@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the pictures of the README and of the guide, with pgdr, its Python module and headless Chromium.
+"""Makes the pictures of the README, the guide and the manual, with pgdr, its Python module, the compiled examples and headless Chromium.
 
 usage: docs/draw_pictures.py [NAME...]      default: all of them; with PGDR_APP in the environment, by that program
 """
@@ -20,6 +20,9 @@ APP = Path(os.environ.get("PGDR_APP", ROOT / "build/release/pgdr")).resolve()
 README = "pgdr mesh data/winged_body_in_box.poly --size 2.4 --refine-box=-19.89,-5.65,-5.61,6.50,8.05,5.61:0.6 -o out.vtu"
 PICTURES = {
     "winged_body": (README, "out.vtu", "cut=y:0.5"),
+    "manual_cube": ("example_refine_cube", "cube.vtu", "cut=y:0.4"),
+    "manual_graded": ("example_distance_sizing_with_gradation", "graded.vtu", "cut=y:0.5"),
+    "manual_remeshed": ("example_surface_mesh_to_c3t3", "remeshed.vtu", "cut=y:0.4"),
     "guide_1": (1, "plate.vtu", "cut=y:0.3"),
     "guide_2": (2, "closed.mesh", "cut=y:0.4"),
     "guide_3": (3, "part.mesh", "cut=y:0.4"),
@@ -46,7 +49,7 @@ def draw(name, commands, mesh, view):
         (Path(folder) / "bin").mkdir()
         (Path(folder) / "bin/pgdr").symlink_to(APP)
         (Path(folder) / "bin/python3").symlink_to(sys.executable)
-        environment = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}", "PYTHONPATH": str(APP.parent / "python")}
+        environment = {**os.environ, "PATH": f"{folder}/bin:{APP.parent}/examples:{os.environ['PATH']}", "PYTHONPATH": str(APP.parent / "python")}
         for command in (commands if isinstance(commands, str) else commands_of(commands), f"pgdr view {mesh} -o page.html"):
             subprocess.run(["bash", "-e", "-c", command], cwd=folder, env=environment, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         browser = ["chromium", "--headless", "--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--hide-scrollbars", "--disable-background-networking"]
