@@ -38,12 +38,18 @@ struct Split_guard {
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
   double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex inherits
   bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
-  bool is_for_size = false;             ///< the client is too large: what the size asks for makes no edge shorter than a part of it
+  double size = 0;                      ///< that the client is over; 0: it is not
   bool is_strict = false;               ///< the floor holds everywhere
 
   /// Whether the client is given up as soon as one piece in its way refuses: with an edge as short as a small angle makes it, unless
   /// that is much shorter than what is around, or the client is too large.
-  bool gives_up_at_once() const { return !is_for_size && (is_at_wedge || floor_apart > 0); }
+  bool gives_up_at_once() const { return size == 0 && (is_at_wedge || floor_apart > 0); }
+  /// For a piece that is larger than the size itself: it is split whatever is near, which is done only as often as the size fits it.
+  Split_guard for_piece(double radius) const {
+    Split_guard guard = *this;
+    if (size > 0 && radius > size) guard.floor = guard.floor_apart = 0;
+    return guard;
+  }
   /// Whether one of the points is next to a small angle.
   bool is_near(const Acute_neighborhood_3& acute) const {
     return std::any_of(where.begin(), where.begin() + static_cast<std::ptrdiff_t>(count),
@@ -113,7 +119,7 @@ Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
                         const Acute_neighborhood_3& acute) {
   constexpr double most_points = 10;  // table in docs/robustness.md
   // Of a segment in the way of a circumcenter, which is at least so far from all vertices, the middle is half as far, and a point on a shell two thirds of
-  // that. With 1/2, six of 83 parts kept edges of 2.1 to 3.8 times the size, with 1/4 one does; tetrahedra are 0.99 to 1.04 times as many.
+  // that: with 1/2, six of 83 parts kept edges of 2.1 to 3.8 times the size, with 1/4 one did, before large pieces were split anyway.
   constexpr double part_of_size = 0.25;
   Split_guard guard{.floor = 0.5 * std::sqrt(ball.squared_shortest), .where = corners, .count = 4,
                     .reach = 4 * std::sqrt(ball.squared_radius)};
@@ -130,8 +136,10 @@ Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
     guard.meeting = {a, b};
     guard.floor_apart = 0.5 * std::sqrt(ball.squared_shortest);
   });
-  guard.is_for_size = size.has_value();
-  if (size) guard.floor = std::min(guard.floor, part_of_size * *size);
+  if (size) {
+    guard.size = *size;
+    guard.floor = std::min(guard.floor, part_of_size * guard.size);
+  }
   guard.floor_apart = std::min(guard.floor_apart, guard.floor);
   return guard;
 }

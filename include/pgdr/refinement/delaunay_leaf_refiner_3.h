@@ -854,7 +854,7 @@ class Delaunay_leaf_refiner_3 {
   /// away from small angles, without. False if no obstacle is left.
   bool make_room(Worker& w, Attempt& t, Worklist& list, Drain_result& result) const {
     Split_guard guard = split_guard(t.id.cell, t.ball, t.corners, size_over(t), acute_);
-    guard.is_for_size &= !t.is_outside();
+    if (t.is_outside()) guard.size = 0;
     guard.is_strict = t.tried.is_strict;
     if (splits_obstacle(w, t, guard, list, result)) return true;
     if (!t.tried.is_strict || guard.is_near(acute_)) return false;
@@ -872,15 +872,16 @@ class Delaunay_leaf_refiner_3 {
     const bool outside = t.is_outside(), segments = w.obstacles_.are_subsegments();
     for (const Piece_id& piece : w.obstacles_.to_split()) {
       const bool is_known = std::ranges::find(t.tried.refused, piece) != t.tried.refused.end();
+      const Split_guard of_piece = guard.for_piece(segments ? complex_.subsegment_radius(piece.slot) : complex_.subfacet_radius(piece.slot));
       const Split_outcome outcome = is_known   ? Split_outcome::refused
-                                    : segments ? features.split_subsegment(piece.slot, Split_reason::encroached, guard)
-                                               : features.split_subfacet(piece.slot, Split_reason::encroached, guard);
+                                    : segments ? features.split_subsegment(piece.slot, Split_reason::encroached, of_piece)
+                                               : features.split_subfacet(piece.slot, Split_reason::encroached, of_piece);
       if (outcome == Split_outcome::inserted) {
         if (t.id.is_live()) (outside ? list.active_outside_ : list.active_).push(t.id);
         return true;
       }
       if (outcome == Split_outcome::elsewhere) {
-        features.outgoing().emplace_back(features.elsewhere().at, errand_for(t, guard, piece, features.elsewhere()));
+        features.outgoing().emplace_back(features.elsewhere().at, errand_for(t, of_piece, piece, features.elsewhere()));
         return true;
       }
       if (guard.gives_up_at_once()) {
