@@ -38,8 +38,8 @@ Nodal_sizing_field::Nodal_sizing_field(const std::vector<Point>& points, const s
   for (std::size_t i = 0; i < points.size(); ++i) nodes.emplace_back(Kernel::Point_3(points[i][0], points[i][1], points[i][2]), values[i]);
   // Of equal points the first one: insertion goes along a curve, not in order.
   std::ranges::stable_sort(nodes, [](const auto& a, const auto& b) { return a.first < b.first; });
-  const auto rest = std::ranges::unique(nodes, [](const auto& a, const auto& b) { return a.first == b.first; });
-  nodes.erase(rest.begin(), rest.end());
+  // Not std::ranges::unique, which Clang 14 cannot compile.
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.first == b.first; }), nodes.end());
   const auto made = std::make_shared<Nodes>();
   made->triangulation.insert(nodes.begin(), nodes.end());
   nodes_ = made;
