@@ -3,7 +3,6 @@
 #define PGDR_MAKE_MESH_3_H
 
 #include <utility>
-#include <vector>
 
 #include <pgdr/cgal/mesh_complex_3.h>
 #include <pgdr/cgal/plc_from_face_graph.h>
@@ -30,8 +29,7 @@ C3t3 make_mesh_3(const FaceGraph& surface, const Sizing& sizing, const Parameter
 template <MeshComplex C3t3>
 C3t3 make_mesh_3(const Plc& plc, const Mesh_criteria_3& criteria, Parameters parameters = {}) {
   parameters.radius_edge_ratio = criteria.cell_radius_edge_ratio;
-  std::vector<Input_problem> warnings;
-  Domain_3<Default_kernel> domain = valid_domain(plc, parameters.coplanar_tolerance, parameters.triangulate_facets, &warnings);
+  Domain_3<Default_kernel> domain = valid_domain(plc, parameters.coplanar_tolerance, parameters.triangulate_facets);
   const Combined_sizing_field sizing = sizing_of(criteria, domain);
   return mesh_complex_3<C3t3>(refine_mesh_3(std::move(domain), sizing, parameters));
 }

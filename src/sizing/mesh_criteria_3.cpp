@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/sizing/mesh_criteria_3.h>
 
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -38,8 +37,7 @@ Combined_sizing_field sizing_of(const Mesh_criteria_3& criteria, const Domain_3<
   for (const auto& [marker, radius] : criteria.patch_sizes) bound_facets(radius, {marker});
 
   std::vector<Combined_sizing_field::Function> functions;
-  if (const auto& field = criteria.cell_size.field())
-    functions.push_back([field](const std::array<double, 3>& p) { return field(Default_kernel::Point_3(p[0], p[1], p[2])); });
+  if (const auto& field = criteria.cell_size.field()) functions = Combined_sizing_field::of(field).functions();
   return Combined_sizing_field(Combined_sizing_field::Local(Uniform_sizing_field(largest)), std::move(fields), std::move(functions));
 }
 

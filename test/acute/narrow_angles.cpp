@@ -18,24 +18,6 @@ using pgdr::Plc;
 
 namespace {
 
-/// A prism of height 2 over a triangle with an angle, in degrees, at vertex 0; the edge from 0 to 3 is the wedge's.
-Plc prism(double degrees) {
-  const double phi = degrees * std::numbers::pi / 180;
-  Plc plc;
-  for (const double z : {0.0, 2.0}) {
-    plc.vertices.emplace_back(0, 0, z);
-    plc.vertices.emplace_back(1, 0, z);
-    plc.vertices.emplace_back(std::cos(phi), std::sin(phi), z);
-  }
-  plc.facets.resize(5);
-  plc.facets[0].polygons = {{0, 1, 4, 3}};
-  plc.facets[1].polygons = {{0, 2, 5, 3}};
-  plc.facets[2].polygons = {{1, 2, 5, 4}};
-  plc.facets[3].polygons = {{0, 1, 2}};
-  plc.facets[4].polygons = {{3, 4, 5}};
-  return plc;
-}
-
 /// Two triangles with vertex 0 in common, one above the other at an angle.
 Plc pair(double degrees) {
   const double z = std::tan(degrees * std::numbers::pi / 180);
@@ -60,7 +42,7 @@ Feature_id segment(const Domain& domain, Index a, Index b) {
 TEST_CASE("A wedge is narrow between its facets, at its edge and below the limit", "[conforming]") {
   for (const double degrees : {1.0, 10.0, 14.0, 15.0, 40.0, 90.0}) {
     CAPTURE(degrees);
-    const auto domain = pgdr::make_domain_3(prism(degrees));
+    const auto domain = pgdr::make_domain_3(triangular_prism(degrees, 2));
     REQUIRE(domain.facets.size() == 5);
     const pgdr::Narrow_angles_3 narrow(domain, pgdr::small_angles_3(domain));
     const bool is_below = degrees < 14.48;

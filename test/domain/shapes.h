@@ -35,6 +35,19 @@ inline Plc box(std::array<double, 3> lower = {0, 0, 0}, std::array<double, 3> up
   return plc;
 }
 
+/// A prism over a triangle with an angle, in degrees, at vertex 0; the edge from 0 to 3 is the wedge's.
+inline Plc triangular_prism(double degrees, double height = 1) {
+  const double phi = degrees * std::numbers::pi / 180;
+  Plc plc;
+  for (const double z : {0.0, height}) {
+    plc.vertices.emplace_back(0, 0, z);
+    plc.vertices.emplace_back(1, 0, z);
+    plc.vertices.emplace_back(std::cos(phi), std::sin(phi), z);
+  }
+  for (const std::vector<Index>& face : {std::vector<Index>{0, 1, 4, 3}, {0, 2, 5, 3}, {1, 2, 5, 4}, {0, 1, 2}, {3, 4, 5}}) plc.facets.push_back({{face}, {}, 0});
+  return plc;
+}
+
 /// Cuts every polygon into a fan of triangles.
 inline Plc triangulated(const Plc& plc) {
   Plc result = plc;

@@ -14,6 +14,7 @@
 #include <pgdr/mesh_domain.h>
 
 #include "catch.h"
+#include "domain/shapes.h"
 #include "inputs.h"
 #include "seeded_random.h"
 
@@ -25,10 +26,8 @@ using Domain = pgdr::Domain_3<pgdr::Default_kernel>;
 
 /// The unit cube whose facets have the markers 1 to 6, with a marked segment across one of them.
 Domain cube() {
-  pgdr::Plc plc;
-  for (int i = 0; i < 8; ++i) plc.vertices.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  constexpr std::array<std::array<pgdr::Index, 4>, 6> faces{{{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
-  for (std::size_t i = 0; i < 6; ++i) plc.facets.push_back({{{faces[i].begin(), faces[i].end()}}, {}, static_cast<int>(i) + 1});
+  pgdr::Plc plc = pgdr_test::box();
+  for (std::size_t i = 0; i < 6; ++i) plc.facets[i].marker = static_cast<int>(i) + 1;
   plc.segments.push_back({0, 3, 9});
   return pgdr::valid_domain(plc, 1e-6);
 }

@@ -11,22 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/version.h>
-#if CGAL_VERSION_MAJOR >= 6
-#include <CGAL/AABB_segment_primitive_3.h>
-#include <CGAL/AABB_traits_3.h>
-#else
-#include <CGAL/AABB_segment_primitive.h>
-#include <CGAL/AABB_traits.h>
-#endif
 
 #include <pgdr/acute/facet_wedges_3.h>
 #include <pgdr/acute/narrow_angles_3.h>
 #include <pgdr/acute/protected_balls_3.h>
+#include <pgdr/domain/detail/aabb_trees.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/small_angles_3.h>
@@ -39,13 +31,7 @@ namespace pgdr {
 class Acute_neighborhood_3 {
   using Kernel = CGAL::Simple_cartesian<double>;
   using Segments = std::vector<Kernel::Segment_3>;
-#if CGAL_VERSION_MAJOR >= 6
-  using Primitive = CGAL::AABB_segment_primitive_3<Kernel, Segments::const_iterator>;
-  using Segment_tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
-#else
-  using Primitive = CGAL::AABB_segment_primitive<Kernel, Segments::const_iterator>;
-  using Segment_tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-#endif
+  using Segment_tree = domain_detail::Aabb_segment_tree<Kernel>;
   using Vertex_search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
 
  public:

@@ -2,12 +2,12 @@
 #ifndef PGDR_SIZING_MESH_CRITERIA_3_H
 #define PGDR_SIZING_MESH_CRITERIA_3_H
 
-#include <array>
 #include <concepts>
 #include <functional>
 #include <limits>
 #include <map>
 #include <type_traits>
+#include <utility>
 
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/domain_3.h>
@@ -31,7 +31,7 @@ struct Mesh_criteria_3 {
     using Point_3 = Default_kernel::Point_3;
 
     Cell_size() = default;
-    /// Throws `std::invalid_argument` unless `radius` > 0.
+    /// \param radius above 0; `sizing_of` refuses others
     Cell_size(double radius) : radius_(radius) {}  // NOLINT(google-explicit-constructor): as in CGAL
     template <class Field>
       requires(!std::convertible_to<Field, double> && !std::same_as<std::remove_cvref_t<Field>, Cell_size> && std::is_invocable_r_v<double, const Field&, const Point_3&>)
