@@ -23,6 +23,9 @@ namespace pgdr {
 /// The filling is found by gift wrapping (Chand and Kapur, J. ACM 17, 1970): behind an open triangle of the hole comes the vertex whose
 /// ball with it holds no other. The perturbed in-sphere test makes the Delaunay triangulation a function of the points, so the result is
 /// that part of it which the vertex had covered.
+///
+/// It is wrapped in doubles first, and kept if exact tests find that it is right, which are fewer than to wrap it with them: positive
+/// tetrahedra, no triangle left open, and none that is not locally Delaunay (docs/theory.md, section 12).
 template <class Tr>
 class Vertex_hole_3 {
  public:
@@ -59,25 +62,8 @@ class Vertex_hole_3 {
 
   /// Fills the hole with tetrahedra. \pre `find` was true
   bool fill() {
-    filling_.clear();
-    open_.clear();
-    behind_.assign(star_.size(), 0);
-    for (std::size_t k = 0; k < star_.size(); ++k) {
-      Open o{0, {}, apex(k), beyond(k), 0};
-      for (int i = 0; i < 4; ++i)
-        if (i != o.apex) o.corners[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(star_[k]->vertex(i)->number());
-      o.key = key_of(o.corners, o.apex);
-      open_.push_back(o);
-    }
-    while (!open_.empty()) {
-      const Open o = open_.back();
-      open_.pop_back();
-      const int next = vertex_behind(o);
-      // Neither can be, with exact predicates; but nothing has been written yet.
-      if (next < 0 || filling_.size() >= 8 * most_vertices) return false;
-      add_tetrahedron(o, static_cast<std::uint8_t>(next));
-    }
-    return true;
+    return (wrap([this](const Open& o) { return guess_behind(o); }) && is_locally_delaunay()) ||
+           wrap([this](const Open& o) { return vertex_behind(o); });
   }
 
   /// Whether the last `find` came to nothing because the star is not own.
@@ -164,6 +150,43 @@ class Vertex_hole_3 {
     return tr_->in_ball(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3]), p);
   }
 
+  /// Wraps the hole's inside. `behind(open)`: position of the vertex behind an open triangle, or -1.
+  template <class Behind>
+  bool wrap(const Behind& behind) {
+    filling_.clear();
+    open_.clear();
+    behind_.assign(star_.size(), 0);
+    for (std::size_t k = 0; k < star_.size(); ++k) {
+      Open o{0, {}, apex(k), beyond(k), 0};
+      for (int i = 0; i < 4; ++i)
+        if (i != o.apex) o.corners[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(star_[k]->vertex(i)->number());
+      o.key = key_of(o.corners, o.apex);
+      open_.push_back(o);
+    }
+    while (!open_.empty()) {
+      const Open o = open_.back();
+      open_.pop_back();
+      const int next = behind(o);
+      // None of this can be, with exact predicates; but nothing has been written yet.
+      if (next < 0 || filling_.size() >= 8 * most_vertices || !add_tetrahedron(o, static_cast<std::uint8_t>(next))) return false;
+    }
+    return true;
+  }
+
+  /// Whether the triangles between tetrahedra of the filling are locally Delaunay.
+  bool is_locally_delaunay() const {
+    for (std::size_t k = 0; k < filling_.size(); ++k)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::int32_t n = filling_[k].neighbors[i];
+        if (n < static_cast<std::int32_t>(k)) continue;  // beyond, or looked at
+        const Tetrahedron& other = filling_[static_cast<std::size_t>(n)];
+        const auto at = static_cast<std::size_t>(std::ranges::find(other.neighbors, static_cast<std::int32_t>(k)) - other.neighbors.begin());
+        const std::uint8_t corner = other.corners[at];
+        if (in_conflict(filling_[k].corners, filling_[k].ball, points_[corner], point(corner))) return false;
+      }
+    return true;
+  }
+
   bool collect_star() {
     star_.clear();
     star_.push_back(vertex_->cell());
@@ -216,15 +239,17 @@ class Vertex_hole_3 {
     return static_cast<std::uint8_t>(edges);
   }
 
-  /// The triangle's key, whatever the order of its corners.
+  /// The triangle's key: whatever the order of its corners, but other than that of the same one with its inside on the other side.
   static std::uint32_t key_of(const std::array<std::uint8_t, 4>& corners, int apex) {
     std::uint32_t a = corners[static_cast<std::size_t>((apex + 1) & 3)], b = corners[static_cast<std::size_t>((apex + 2) & 3)],
                   c = corners[static_cast<std::size_t>((apex + 3) & 3)];
-    if (a > b) std::swap(a, b);
-    if (b > c) std::swap(b, c);
-    if (a > b) std::swap(a, b);
-    return a << 16 | b << 8 | c;
+    auto side = static_cast<std::uint32_t>(apex & 1);
+    if (a > b) std::swap(a, b), side ^= 1;
+    if (b > c) std::swap(b, c), side ^= 1;
+    if (a > b) std::swap(a, b), side ^= 1;
+    return side << 24 | a << 16 | b << 8 | c;
   }
+  static std::uint32_t from_other_side(std::uint32_t key) { return key ^ 1U << 24; }
 
   static bool is_corner(const Open& o, std::size_t k) {
     bool is = false;
@@ -234,52 +259,61 @@ class Vertex_hole_3 {
 
   /// The vertex that looks like the one behind an open triangle, in doubles: the center of the ball through the triangle and the vertex is
   /// least far on the inner side.
-  std::size_t guess_behind(const Open& o) const {
+  int guess_behind(const Open& o) const {
     const auto corner = [&](int i) { return points_[o.corners[static_cast<std::size_t>((o.apex + i) & 3)]]; };
     const Vec_3 a = corner(1), ab = corner(2) - a, ac = corner(3) - a;
     const Vec_3 n = (o.apex & 1 ? 1.0 : -1.0) * cross(ab, ac);
     const double nn = squared_length(n);
     const Vec_3 center = (0.5 / nn) * (squared_length(ac) * cross(cross(ab, ac), ab) + squared_length(ab) * cross(ac, cross(ab, ac)));
     const double squared_radius = squared_length(center);
-    std::size_t best = 0;
+    int best = -1;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < points_.size(); ++k) {
       const Vec_3 u = points_[k] - a - center;
       const double height = dot(u, n);
       if (!(height > 0) || is_corner(o, k)) continue;
-      if (const double t = (squared_length(u) - squared_radius) / height; t < nearest) nearest = t, best = k;
+      if (const double t = (squared_length(u) - squared_radius) / height; t < nearest) nearest = t, best = static_cast<int>(k);
     }
     return best;
   }
 
-  /// The vertex on the inner side of an open triangle in whose ball with it, which is left in `ball_`, there is no other.
-  int vertex_behind(const Open& o) {
-    const auto orientation = tr_->geom_traits().orientation_3_object();
+  /// The vertex on the inner side of an open triangle in whose ball with it there is no other. Exact.
+  int vertex_behind(const Open& o) const {
     std::array<std::uint8_t, 4> corners = o.corners;
-    const auto apex = static_cast<std::size_t>(o.apex);
+    Certified_ball ball;
     int best = -1;
-    const auto consider = [&](std::size_t k) {
-      if (is_corner(o, k) || static_cast<int>(k) == best) return;
-      if (best >= 0 && !in_conflict(corners, ball_, points_[k], point(static_cast<std::uint8_t>(k)))) return;
-      const std::uint8_t before = std::exchange(corners[apex], static_cast<std::uint8_t>(k));
-      if (orientation(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3])) != CGAL::POSITIVE) {
-        corners[apex] = before;
-        return;
+    for (std::size_t k = 0; k < vertices_.size(); ++k) {
+      const auto next = static_cast<std::uint8_t>(k);
+      if (is_corner(o, k) || (best >= 0 && !in_conflict(corners, ball, points_[k], point(next)))) continue;
+      const std::uint8_t before = std::exchange(corners[static_cast<std::size_t>(o.apex)], next);
+      if (is_positive(corners)) {
+        best = static_cast<int>(k);
+        ball = ball_of(corners);
+      } else {
+        corners[static_cast<std::size_t>(o.apex)] = before;
       }
-      best = static_cast<int>(k);
-      const Tetrahedron_ball ball = tetrahedron_ball({points_[corners[0]], points_[corners[1]], points_[corners[2]], points_[corners[3]]});
-      ball_.set(ball.center, std::sqrt(ball.squared_radius), ball_error);
-    };
-    consider(guess_behind(o));
-    for (std::size_t k = 0; k < vertices_.size(); ++k) consider(k);
+    }
     return best;
   }
 
-  void add_tetrahedron(const Open& o, std::uint8_t next) {
+  bool is_positive(const std::array<std::uint8_t, 4>& corners) const {
+    return tr_->geom_traits().orientation_3_object()(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3])) == CGAL::POSITIVE;
+  }
+
+  Certified_ball ball_of(const std::array<std::uint8_t, 4>& corners) const {
+    const Tetrahedron_ball ball = tetrahedron_ball({points_[corners[0]], points_[corners[1]], points_[corners[2]], points_[corners[3]]});
+    Certified_ball certified;
+    certified.set(ball.center, std::sqrt(ball.squared_radius), ball_error);
+    return certified;
+  }
+
+  /// Puts a tetrahedron between an open triangle and a vertex. False if it is not positive.
+  bool add_tetrahedron(const Open& o, std::uint8_t next) {
     const auto number = static_cast<std::int32_t>(filling_.size());
     Tetrahedron t;
     t.corners = o.corners;
     t.corners[static_cast<std::size_t>(o.apex)] = next;
+    if (!is_positive(t.corners)) return false;
     link(t, number, o.apex, o);
     for (int i = 0; i < 4; ++i) {
       if (i == o.apex) continue;
@@ -291,12 +325,13 @@ class Vertex_hole_3 {
         open_.pop_back();
         continue;
       }
-      Open fresh{key, t.corners, i, number, i};
+      Open fresh{from_other_side(key), t.corners, i, number, i};
       std::swap(fresh.corners[static_cast<std::size_t>((i + 1) & 3)], fresh.corners[static_cast<std::size_t>((i + 2) & 3)]);
       open_.push_back(fresh);
     }
-    t.ball = ball_;
+    t.ball = ball_of(t.corners);
     filling_.push_back(t);
+    return true;
   }
 
   void link(Tetrahedron& t, std::int32_t number, int i, const Open& other) {
@@ -330,7 +365,6 @@ class Vertex_hole_3 {
   std::vector<Tetrahedron> filling_;
   std::vector<std::int32_t> behind_;
   std::vector<Open> open_;
-  Certified_ball ball_;  ///< of the last `vertex_behind`
 };
 
 }  // namespace pgdr

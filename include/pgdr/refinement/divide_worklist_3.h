@@ -41,11 +41,14 @@ std::vector<Territory_map::Item> sample_vertices(const Tr& tr, std::size_t most)
   return sample;
 }
 
-/// Numbers every vertex with its territory, from 1 on; no other numbers are left.
+/// The number of the territory that holds a point, from 1 on.
+inline std::uint16_t territory_at(const Territory_map& map, const Vec_3& p) { return static_cast<std::uint16_t>(1 + map(p)); }
+
+/// Numbers every vertex with its territory; no other numbers are left.
 template <class Tr>
 void mark_territories(Tr& tr, const Territory_map& map) {
   for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v)
-    v->set_territory(static_cast<std::uint16_t>(1 + map(position(typename Tr::Vertex_handle(v)))));
+    v->set_territory(territory_at(map, position(typename Tr::Vertex_handle(v))));
   tr.infinite_vertex()->set_territory(Territory_3<Tr>::everybody);
 }
 

@@ -85,6 +85,7 @@ class Territory_map {
       if (axis != axes[0] && fewer * across >= fewest) continue;
       best = c;
       fewest = across;
+      if (fewest == 0) break;
     }
     return best;
   }

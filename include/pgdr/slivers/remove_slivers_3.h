@@ -20,6 +20,7 @@
 #include <pgdr/report/run_statistics.h>
 #include <pgdr/slivers/feature_sliver_remover_3.h>
 #include <pgdr/slivers/sliver_remover_3.h>
+#include <pgdr/slivers/vertex_territories_3.h>
 
 namespace pgdr {
 
@@ -125,24 +126,23 @@ class Sliver_removal_3 {
   }
 
   void give_all(std::uint16_t territory) {
-    for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) v->set_territory(territory);
+    give_vertices(tr_, [territory](Vertex_handle) { return territory; });
   }
 
   std::vector<Sliver> divided(std::vector<Sliver> slivers, std::size_t n, std::size_t round) {
     constexpr std::array<double, most_rounds> shares{0.5, 0.4, 0.6};
-    std::vector<Territory_map::Item> sample;
-    for (const Sliver& s : slivers) {
-      const Vec_3 center = s.center();
-      sample.push_back({center, {center, center}});
-    }
-    mark_territories(tr_, Territory_map(std::move(sample), n, shares[round]));
+    std::vector<Territory_map::Item> sample(slivers.size());
+    for_all(slivers, [&](std::size_t k) {
+      const Vec_3 center = slivers[k].center();
+      sample[k] = {center, {center, center}};
+    });
+    mark_territories_in_parallel(tr_, Territory_map(std::move(sample), n, shares[round]));
+    const Territory_of_3<Tr> territory_of(complex_);
+    std::vector<std::uint16_t> territories(slivers.size());
+    for_all(slivers, [&](std::size_t k) { territories[k] = territory_of({slivers[k].cell, slivers[k].generation}); });
     std::vector<std::vector<Sliver>> parts(n);
     std::vector<Sliver> left;
-    const Territory_of_3<Tr> territory_of(complex_);
-    for (const Sliver& s : slivers) {
-      const std::uint16_t t = territory_of({s.cell, s.generation});
-      (t == 0 ? left : parts[t - 1]).push_back(s);
-    }
+    for (std::size_t k = 0; k < slivers.size(); ++k) (territories[k] == 0 ? left : parts[territories[k] - 1u]).push_back(slivers[k]);
     std::vector<typename Remover::Result> results(n);
     const std::size_t share = quota() / n;
     {
@@ -157,6 +157,13 @@ class Sliver_removal_3 {
     }
     std::erase_if(left, [](const Sliver& s) { return !s.is_live(); });
     return left;
+  }
+
+  template <class F>
+  static void for_all(const std::vector<Sliver>& slivers, const F& f) {
+    parallel_for_chunks(slivers.size(), default_grain, [&f](std::size_t k, std::size_t end) {
+      for (; k < end; ++k) f(k);
+    });
   }
 
   std::vector<Sliver> take(typename Remover::Result&& result) {

@@ -215,6 +215,7 @@ class Vertex_mover_3 {
     double worst = -1;
     for (std::size_t k = 0; k < filling.size(); ++k) {
       in_conflict_[k] = hole_.in_conflict(filling[k], p);
+      if (!in_conflict_[k] && measured_filling_[k].cosine >= limit) return refused;  // not measured yet: less than any limit
       is_any |= in_conflict_[k];
     }
     if (!is_any) return refused;
