@@ -35,6 +35,9 @@ struct Leaf_parcel_3 {
   std::unique_ptr<Feature_errand_3<Cell_handle>> errand;
 };
 
+template <class Tr>
+class Leaf_session_3;
+
 /// What one leaf still has to do.
 template <class Tr>
 class Leaf_worklist_3 {
@@ -110,6 +113,52 @@ class Leaf_worklist_3 {
     } else {
       deferred_.push_back(id);
     }
+  }
+
+  /// A tetrahedron outside the domain; one that is not active waits for smaller leaves.
+  void add_outside(const Cell_id& id, bool is_active) {
+    if (is_active)
+      active_outside_.push(id);
+    else
+      outside_.push_back(id);
+  }
+  /// A tetrahedron that what is in its way was split for.
+  void try_again(const Cell_id& id, bool is_outside) { (is_outside ? active_outside_ : active_).push(id); }
+
+  void receive(Parcel&& parcel, double target, double outside_target) {
+    using Kind = typename Parcel::Kind;
+    switch (parcel.kind) {
+      case Kind::poor:
+        if (!parcel.cell.is_live()) break;
+        if (parcel.cell.cell->subdomain() != 0)
+          add_poor(parcel.cell, target);
+        else
+          add_outside(parcel.cell, static_cast<double>(parcel.cell.radius) > outside_target);
+        break;
+      case Kind::errand: errands_.push(std::move(parcel.errand)); break;
+      case Kind::retry: retries_.push(std::move(parcel.errand)); break;
+      case Kind::coarse: note_coarse(static_cast<double>(parcel.cell.radius)); break;
+      case Kind::refused: note_refused(parcel.at, parcel.cell); break;
+      case Kind::fresh: fresh_.push_back(parcel.cell); break;
+    }
+  }
+
+  /// Deferred elements that are above the target become active.
+  void activate(double target, double outside_target) {
+    const auto sift = [](std::vector<Cell_id>& from, double above, Radius_queue<Cell_id>& to) {
+      std::size_t kept = 0;
+      for (const Cell_id& id : from) {
+        if (!id.is_live()) continue;
+        if (static_cast<double>(id.radius) > above)
+          to.push(id);
+        else
+          from[kept++] = id;
+      }
+      from.resize(kept);
+      if (kept == 0) from.shrink_to_fit();
+    };
+    sift(deferred_, target, active_);
+    sift(outside_, outside_target, active_outside_);
   }
 
   /// What a child of this leaf starts from.
@@ -207,6 +256,7 @@ class Leaf_worklist_3 {
  private:
   template <class, class, class>
   friend class Delaunay_leaf_refiner_3;
+  friend class Leaf_session_3<Tr>;
 
   /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
   static void prefetch(const Fifo<Cell_id>& queue) {
