@@ -7,10 +7,8 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,7 +28,6 @@
 #include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/quality_criteria_3.h>
 #include <pgdr/refinement/room_maker_3.h>
-#include <pgdr/refinement/steiner_inserter_3.h>
 #include <pgdr/refinement/steiner_point_3.h>
 
 namespace pgdr {
@@ -55,7 +52,6 @@ class Delaunay_leaf_refiner_3 {
   using Worklist = Leaf_worklist_3<Tr>;
   using Parcel = typename Worklist::Parcel;
   using Cell_id = typename Worklist::Cell_id;
-  using Errand = typename Worklist::Errand;
   using Session = Leaf_session_3<Tr>;
   using Worker = Leaf_worker_3<Tr>;
 
@@ -69,8 +65,7 @@ class Delaunay_leaf_refiner_3 {
                           double min_edge_length, Placement placement = {})
       : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), min_edge_length_(min_edge_length),
         points_(tr, criteria, std::move(placement)), classifier_(tr, complex, criteria), room_(complex, acute, criteria, min_edge_length),
-        inserter_(classifier_), inside_(tr, complex, acute, criteria, points_, room_, inserter_),
-        outside_(tr, complex, criteria, room_, inserter_) {}
+        inside_(tr, complex, acute, criteria, points_, room_, classifier_), outside_(tr, complex, criteria, room_, classifier_) {}
 
   // Its parts know each other.
   Delaunay_leaf_refiner_3(const Delaunay_leaf_refiner_3&) = delete;
@@ -400,7 +395,6 @@ class Delaunay_leaf_refiner_3 {
   Steiner_points_3<Tr, Criteria, Placement> points_;
   Cell_classifier_3<Tr, Criteria> classifier_;
   Room_maker_3<Tr, Criteria> room_;
-  Steiner_inserter_3<Tr, Criteria> inserter_;
   Inside_refiner_3<Tr, Criteria, Placement> inside_;
   Outside_refiner_3<Tr, Criteria> outside_;
 };

@@ -41,15 +41,19 @@ std::vector<Territory_map::Item> sample_vertices(const Tr& tr, std::size_t most)
   return sample;
 }
 
-/// The number of the territory that holds a point, from 1 on.
-inline std::uint16_t territory_at(const Territory_map& map, const Vec_3& p) { return static_cast<std::uint16_t>(1 + map(p)); }
+/// Numbers every vertex with its territory, from 1 on; no other numbers are left. `for_vertices(f)`: calls f(v) for each finite vertex.
+template <class Tr, class For_vertices>
+void mark_territories(Tr& tr, const Territory_map& map, const For_vertices& for_vertices) {
+  for_vertices([&map](typename Tr::Vertex_handle v) { v->set_territory(static_cast<std::uint16_t>(1 + map(position(v)))); });
+  tr.infinite_vertex()->set_territory(Territory_3<Tr>::everybody);
+}
 
-/// Numbers every vertex with its territory; no other numbers are left.
+/// The same, one vertex after the other.
 template <class Tr>
 void mark_territories(Tr& tr, const Territory_map& map) {
-  for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v)
-    v->set_territory(territory_at(map, position(typename Tr::Vertex_handle(v))));
-  tr.infinite_vertex()->set_territory(Territory_3<Tr>::everybody);
+  mark_territories(tr, map, [&tr](const auto& f) {
+    for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v) f(v);
+  });
 }
 
 /// Tells to which territory, or to none, the items of a worklist belong.

@@ -13,11 +13,11 @@
 #include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/refinement/cell_classifier_3.h>
 #include <pgdr/refinement/features_in_the_way_3.h>
+#include <pgdr/refinement/insert_steiner_point_3.h>
 #include <pgdr/refinement/leaf_session_3.h>
 #include <pgdr/refinement/point_placement.h>
 #include <pgdr/refinement/room_maker_3.h>
 #include <pgdr/refinement/separating_subfacet_3.h>
-#include <pgdr/refinement/steiner_inserter_3.h>
 #include <pgdr/refinement/steiner_point_3.h>
 
 namespace pgdr {
@@ -35,8 +35,8 @@ class Inside_refiner_3 {
 
   Inside_refiner_3(const Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, const Criteria& criteria,
                    const Steiner_points_3<Tr, Criteria, Placement>& points, const Room_maker_3<Tr, Criteria>& room,
-                   const Steiner_inserter_3<Tr, Criteria>& inserter)
-      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), points_(points), room_(room), inserter_(inserter) {}
+                   Cell_classifier_3<Tr, Criteria>& classifier)
+      : tr_(tr), complex_(complex), acute_(acute), criteria_(criteria), points_(points), room_(room), classifier_(classifier) {}
 
   /// Inserts the Steiner point of a tetrahedron, or splits what is in the way.
   void refine(Session& s, Attempt& t) const {
@@ -58,7 +58,7 @@ class Inside_refiner_3 {
       trial = s.task().region.contains(t.at) ? try_point(s, t) : Trial::no_room;
       if (trial == Trial::clear && !keeps_minimum(s, t)) trial = Trial::no_room;
     }
-    if (trial == Trial::clear) inserter_.insert(s, t);
+    if (trial == Trial::clear) insert_steiner_point(s, t, classifier_);
     if (trial == Trial::no_room) room_.give_up(s, t);
   }
 
@@ -166,7 +166,7 @@ class Inside_refiner_3 {
   const Criteria& criteria_;
   const Steiner_points_3<Tr, Criteria, Placement>& points_;
   const Room_maker_3<Tr, Criteria>& room_;
-  const Steiner_inserter_3<Tr, Criteria>& inserter_;
+  Cell_classifier_3<Tr, Criteria>& classifier_;
 };
 
 }  // namespace pgdr

@@ -9,10 +9,11 @@
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/mesh/triangle_ball.h>
+#include <pgdr/refinement/cell_classifier_3.h>
 #include <pgdr/refinement/features_in_the_way_3.h>
+#include <pgdr/refinement/insert_steiner_point_3.h>
 #include <pgdr/refinement/leaf_session_3.h>
 #include <pgdr/refinement/room_maker_3.h>
-#include <pgdr/refinement/steiner_inserter_3.h>
 #include <pgdr/refinement/steiner_point_3.h>
 
 namespace pgdr {
@@ -28,13 +29,13 @@ class Outside_refiner_3 {
   using Attempt = Steiner_attempt_3<Tr>;
 
   Outside_refiner_3(const Tr& tr, Complex& complex, const Criteria& criteria, const Room_maker_3<Tr, Criteria>& room,
-                    const Steiner_inserter_3<Tr, Criteria>& inserter)
-      : tr_(tr), complex_(complex), criteria_(criteria), room_(room), inserter_(inserter) {}
+                    Cell_classifier_3<Tr, Criteria>& classifier)
+      : tr_(tr), complex_(complex), criteria_(criteria), room_(room), classifier_(classifier) {}
 
   /// Inserts the Steiner point of a tetrahedron, unless a feature is in the way that need not be split anyway.
   void refine(Session& s, Attempt& t) const {
     switch (find(s, t)) {
-      case Obstruction::none: inserter_.insert(s, t); break;
+      case Obstruction::none: insert_steiner_point(s, t, classifier_); break;
       case Obstruction::splits_anyway:
         if (!room_.make_room(s, t)) room_.give_up(s, t);
         break;
@@ -105,7 +106,7 @@ class Outside_refiner_3 {
   Complex& complex_;
   const Criteria& criteria_;
   const Room_maker_3<Tr, Criteria>& room_;
-  const Steiner_inserter_3<Tr, Criteria>& inserter_;
+  Cell_classifier_3<Tr, Criteria>& classifier_;
 };
 
 }  // namespace pgdr

@@ -126,7 +126,7 @@ class Sliver_removal_3 {
   }
 
   void give_all(std::uint16_t territory) {
-    give_vertices(tr_, [territory](Vertex_handle) { return territory; });
+    for_vertices_in_parallel(tr_, [territory](Vertex_handle v) { v->set_territory(territory); });
   }
 
   std::vector<Sliver> divided(std::vector<Sliver> slivers, std::size_t n, std::size_t round) {
