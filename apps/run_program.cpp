@@ -36,7 +36,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App program(
       "Delaunay refinement: tetrahedral meshes of guaranteed quality from piecewise linear complexes.",
       "pgdr");
-  program.set_version_flag("--version", "pgdr " PGDR_VERSION " (CGAL " CGAL_STR(CGAL_VERSION) ", oneTBB " PGDR_TBB_VERSION ")");
+  program.set_version_flag("--version", "pgdr " PGDR_VERSION " (CGAL " CGAL_STR(CGAL_VERSION) ", " PGDR_THREADS_BY ")");
   program.require_subcommand(0, 1);  // none is reported below, in our own words
   const std::array<Command, 4> commands{add_mesh_command(program), add_check_command(program), add_info_command(program), add_view_command(program)};
   program.footer(

@@ -16,6 +16,12 @@ struct Progress {
   std::size_t pending = 0;       ///< elements that wait to be looked at
 };
 
+/// A vertex that has just been put into the mesh, in the user's unit.
+struct Inserted_vertex {
+  double x = 0, y = 0, z = 0;
+  int dimension = 3;  ///< 1: on a segment, 2: on a facet, 3: inside
+};
+
 /// Where the Steiner point of a poor tetrahedron goes; the policies are in refinement/point_placement.h.
 enum class Point_placement {
   lazy,          ///< the circumcenter, unless a dihedral angle comes out below `Parameters::min_dihedral` (or less, `angle_of_choice`): then a few points near it
@@ -110,6 +116,10 @@ struct Parameters {
 
   /// Called now and then from the refining thread.
   std::function<void(const Progress&)> progress;
+
+  /// Called for every vertex as it is put on a segment, on a facet or inside, by the thread that does so: by several at once, in an order
+  /// that timing decides. It has to be safe for that, and quick. Vertices inside may move later, while slivers are removed.
+  std::function<void(const Inserted_vertex&)> inserted;
 
   /// Set from any thread or a signal handler to stop at the next insertion; the mesh is valid then.
   const std::atomic<bool>* cancel = nullptr;

@@ -58,6 +58,7 @@ class Mesher_3 {
                                                         : 1e-9 * mesh_.domain().diagonal),
         features_(mesh_.triangulation(), mesh_.complex(), acute_, min_edge_length_) {
     parameters_.cancel = watch_.flag();
+    if (parameters_.inserted) mesh_.triangulation().set_listener(&listener_);
     mesh_.set_radius_edge_ratio(parameters.radius_edge_ratio);
   }
 
@@ -233,6 +234,7 @@ class Mesher_3 {
   }
 
   void conclude() {
+    mesh_.triangulation().set_listener(nullptr);
     Run_statistics& s = mesh_.statistics();
     s.unrecovered = count_missing();
     s.steiner_points = mesh_.triangulation().number_of_vertices() - mesh_.domain().vertices.size() -
@@ -283,6 +285,10 @@ class Mesher_3 {
   Stop_reason reason_ = Stop_reason::finished;
   std::size_t limited_ = 0;  ///< tetrahedra at the minimum edge length
   std::size_t calls_ = 0;
+  const typename Tr::Listener listener_ = [this](const Vec_3& p, int dimension) {
+    const double unit = unit_of(mesh_.domain());
+    parameters_.inserted({unit * p.x, unit * p.y, unit * p.z, dimension});
+  };
   Clock::time_point start_;
 };
 

@@ -45,7 +45,7 @@ FORBIDDEN = {
 # The engine is sequential; these headers of its room come after it.
 AFTER_REFINEMENT = {"refinement/indexed_mesh_of_3.h", "refinement/canonical_order.h", "refinement/sort_tetrahedra.h"}
 TBB = re.compile(r"^(tbb|oneapi)/")
-TBB_ROOMS = {"schedule", "parallel"}
+HAS_TBB = "CGAL_LINKED_WITH_TBB"
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "barrier", "latch"}
 CHANGES_TRIANGULATION = re.compile(
     r"\b(insert_in_hole|create_cell|create_vertex|delete_cell|delete_vertex|create_star_3|"
@@ -99,12 +99,14 @@ def check_header(header, lines):
     for number, line in enumerate(without_comments(lines), 1):
         if room != "mesh" and CHANGES_TRIANGULATION.search(line):
             violations.append((number, "only mesh/ may change a triangulation"))
+        if room != "parallel" and HAS_TBB in line:
+            violations.append((number, "only parallel/ may ask whether there is TBB"))
         match = INCLUDE.match(line)
         if not match:
             continue
         delimiter, target = match.groups()
-        if TBB.match(target) and room not in TBB_ROOMS:
-            violations.append((number, "only schedule/ and parallel/ may include TBB"))
+        if TBB.match(target) and room != "parallel":
+            violations.append((number, "only parallel/ may include TBB"))
         if room in ("refinement", "conforming", "octree", "independence") and target in THREADS:
             violations.append((number, f"{room}/ must not know of threads"))
         path = included(header, delimiter, target)

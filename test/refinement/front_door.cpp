@@ -2,10 +2,15 @@
 #include "catch.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
+#include <mutex>
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include <pgdr/io/read_plc.h>
@@ -210,6 +215,44 @@ TEST_CASE("A flag stops the refinement", "[refinement]") {
   const Mesh none = refined(read("cube.poly"), 0.03, parameters);
   CHECK(none.statistics().stop == pgdr::Stop_reason::cancelled);
   CHECK(none.triangulation().number_of_vertices() == 8);
+}
+
+TEST_CASE("Every new vertex is told, by whatever thread", "[refinement]") {
+  for (const auto& [file, size, min_dihedral] : {std::tuple{"cube.poly", 0.04, 20.0}, {"plate_with_hole.poly", 0.2, 12.0}}) {
+    CAPTURE(file);
+    std::mutex lock;
+    std::vector<pgdr::Inserted_vertex> told;
+    pgdr::Parameters parameters;
+    parameters.threads = 2;
+    parameters.min_dihedral = min_dihedral;
+    parameters.inserted = [&](const pgdr::Inserted_vertex& v) {
+      const std::lock_guard guard(lock);
+      told.push_back(v);
+    };
+    Plc plc = read(file);
+    for (auto& p : plc.vertices) p = {1000 * p.x(), 1000 * p.y(), 1000 * p.z()};
+    const Mesh mesh = refined(plc, 1000 * size, parameters);
+    REQUIRE(!told.empty());
+    // Of the vertices that lie on features or inside of a volume; those outside are not told.
+    std::set<std::array<double, 3>> on_features;
+    std::array<std::size_t, 4> there{}, new_ones{};
+    const double unit = pgdr::unit_of(mesh.domain());
+    const auto& tr = mesh.triangulation();
+    for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v) {
+      const auto d = static_cast<std::size_t>(v->in_dimension());
+      std::vector<pgdr_test::Mesh::Triangulation::Cell_handle> around;
+      tr.incident_cells(v, std::back_inserter(around));
+      if (std::ranges::none_of(around, [](auto c) { return c->subdomain() != 0; })) continue;
+      ++there[d];
+      if (d < 3) on_features.insert({unit * v->point().x(), unit * v->point().y(), unit * v->point().z()});
+    }
+    for (const auto& v : told) {
+      ++new_ones[static_cast<std::size_t>(v.dimension)];
+      if (v.dimension < 3) CHECK(on_features.contains({v.x, v.y, v.z}));
+    }
+    CHECK(new_ones[0] == 0);
+    for (const std::size_t d : {1u, 2u, 3u}) CHECK(new_ones[d] == there[d]);
+  }
 }
 
 TEST_CASE("The mesh does not depend on where memory lies", "[refinement]") {

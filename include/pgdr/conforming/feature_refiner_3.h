@@ -571,6 +571,7 @@ class Feature_refiner_3 {
     const Vertex_handle v = cavity_.commit(p);
     v->set_feature(on.dimension, on.index);
     v->set_insertion_radius(radius);
+    tr_.tell(v);
     ++inserted_;
     return v;
   }

@@ -2,11 +2,13 @@
 #ifndef PGDR_MESH_MESH_TRIANGULATION_3_H
 #define PGDR_MESH_MESH_TRIANGULATION_3_H
 
+#include <functional>
 #include <iterator>
 #include <vector>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Triangulation_data_structure_3.h>
+#include <CGAL/tags.h>
 
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mesh/mesh_cell_base_3.h>
@@ -18,8 +20,8 @@ namespace pgdr {
 /// The Delaunay triangulation that is refined: CGAL's, with the mesh's vertices and cells.
 ///
 /// `Concurrency_tag` chooses CGAL's containers; the refinement itself never asks which. The default lets several
-/// threads insert at once, each where no other is at work.
-template <class Gt, class Concurrency_tag = CGAL::Parallel_tag>
+/// threads insert at once, each where no other is at work; without oneTBB it is CGAL's sequential tag.
+template <class Gt, class Concurrency_tag = CGAL::Parallel_if_available_tag>
 class Mesh_triangulation_3
     : public CGAL::Delaunay_triangulation_3<
           Gt, CGAL::Triangulation_data_structure_3<Mesh_vertex_base_3<Gt>, Mesh_cell_base_3<Gt>, Concurrency_tag>> {
@@ -32,7 +34,16 @@ class Mesh_triangulation_3
   using typename Base::Point;
   using typename Base::Vertex_handle;
 
+  /// Whom to tell of a vertex: its position, and the dimension of what it lies on.
+  using Listener = std::function<void(const Vec_3&, int)>;
+
   using Base::Base;
+
+  /// Who is told of new vertices from now on; null for nobody. Called by all threads that insert.
+  void set_listener(const Listener* listener) { listener_ = listener; }
+  void tell(Vertex_handle v) const {
+    if (listener_) (*listener_)(to_vec(v->point()), v->in_dimension());
+  }
 
   /// Whether the open circumball of c holds p, ties broken by CGAL's symbolic perturbation. Exact.
   ///
@@ -65,6 +76,9 @@ class Mesh_triangulation_3
         return;
       }
   }
+
+ private:
+  const Listener* listener_ = nullptr;
 };
 
 /// Coordinates of a vertex, rounded to double.

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#ifdef CGAL_LINKED_WITH_TBB
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#endif
 
 namespace pgdr {
 
@@ -20,11 +22,15 @@ constexpr std::size_t chunk_count(std::size_t n, std::size_t grain) { return n /
 /// own that another thread may take, so each should be worth microseconds.
 template <class F>
 void parallel_for(std::size_t begin, std::size_t end, const F& f) {
+#ifdef CGAL_LINKED_WITH_TBB
   if (begin >= end) return;
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(begin, end, 1),
                             [&f](const oneapi::tbb::blocked_range<std::size_t>& range) {
                               for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
                             });
+#else
+  for (; begin < end; ++begin) f(begin);
+#endif
 }
 
 /// Calls f(first, last) for each chunk [first, last) of `grain` items of [0, n), at once. Where the chunks begin

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#ifdef CGAL_LINKED_WITH_TBB
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
+#endif
 
 namespace pgdr {
 
@@ -17,6 +19,7 @@ namespace pgdr {
 /// again, so that its memory is. After an exception nothing more is used; it passes through.
 template <class Product, class Make, class Use>
 void parallel_in_order(std::size_t n, const Make& make, const Use& use) {
+#ifdef CGAL_LINKED_WITH_TBB
   namespace tbb = oneapi::tbb;
   struct Item {
     std::size_t index = 0;
@@ -43,6 +46,13 @@ void parallel_in_order(std::size_t n, const Make& make, const Use& use) {
   tbb::parallel_pipeline(tokens, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, begin) &
                                      tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
                                      tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, finish));
+#else
+  Product product;
+  for (std::size_t k = 0; k < n; ++k) {
+    make(k, product);
+    use(k, product);
+  }
+#endif
 }
 
 }  // namespace pgdr

@@ -4,7 +4,11 @@
 
 #include <functional>
 
+#ifdef CGAL_LINKED_WITH_TBB
 #include <oneapi/tbb/parallel_sort.h>
+#else
+#include <algorithm>
+#endif
 
 namespace pgdr {
 
@@ -12,7 +16,11 @@ namespace pgdr {
 /// equal in every bit, or the result would depend on how the work was cut.
 template <class Iterator, class Less = std::less<>>
 void parallel_sort(Iterator first, Iterator last, const Less& less = {}) {
+#ifdef CGAL_LINKED_WITH_TBB
   oneapi::tbb::parallel_sort(first, last, less);
+#else
+  std::sort(first, last, less);
+#endif
 }
 
 }  // namespace pgdr

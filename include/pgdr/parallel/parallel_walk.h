@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <deque>
 
+#ifdef CGAL_LINKED_WITH_TBB
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
+#endif
 
 namespace pgdr {
 
@@ -24,22 +26,27 @@ auto parallel_walk(Iterator first, Iterator last, std::size_t grain, const F& f)
     Value* value = nullptr;
   };
   std::deque<Value> values;  // whose references stay valid while it grows
-  namespace tbb = oneapi::tbb;
   std::size_t position = 0;
-  const auto step = [&](tbb::flow_control& control) -> Chunk {
-    if (first == last) {
-      control.stop();
-      return {};
-    }
+  const auto step = [&] {
     Chunk chunk{position, first, 0, &values.emplace_back()};
     for (; chunk.count < grain && first != last; ++first) ++chunk.count;
     position += chunk.count;
     return chunk;
   };
   const auto work = [&f](const Chunk& chunk) { *chunk.value = f(chunk.position, chunk.first, chunk.count); };
+#ifdef CGAL_LINKED_WITH_TBB
+  namespace tbb = oneapi::tbb;
+  const auto begin = [&](tbb::flow_control& control) -> Chunk {
+    if (first != last) return step();
+    control.stop();
+    return {};
+  };
   const auto tokens = 4 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  tbb::parallel_pipeline(tokens, tbb::make_filter<void, Chunk>(tbb::filter_mode::serial_in_order, step) &
+  tbb::parallel_pipeline(tokens, tbb::make_filter<void, Chunk>(tbb::filter_mode::serial_in_order, begin) &
                                      tbb::make_filter<Chunk, void>(tbb::filter_mode::parallel, work));
+#else
+  while (first != last) work(step());
+#endif
   return values;
 }
 

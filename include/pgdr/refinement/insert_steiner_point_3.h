@@ -15,7 +15,7 @@ namespace pgdr {
 
 /// Inserts the Steiner point of a tetrahedron, and looks at the tetrahedra around it. \pre its cavity is found
 template <class Tr, class Criteria>
-void insert_steiner_point(Leaf_session_3<Tr>& s, const Steiner_attempt_3<Tr>& t, Cell_classifier_3<Tr, Criteria>& classifier) {
+typename Tr::Vertex_handle insert_steiner_point(Leaf_session_3<Tr>& s, const Steiner_attempt_3<Tr>& t, Cell_classifier_3<Tr, Criteria>& classifier) {
   Cavity_3<Tr>& cavity = s.cavity();
   const double radius = std::max(t.least_distance(), inherited_radius(t.id.cell, t.ball, t.corners));
   const typename Tr::Vertex_handle v = cavity.commit(t.point());
@@ -24,6 +24,7 @@ void insert_steiner_point(Leaf_session_3<Tr>& s, const Steiner_attempt_3<Tr>& t,
   s.list().set_anchor(v);
   ++s.result.inserted;
   for (std::size_t k = 0; k < cavity.star().size(); ++k) classifier.classify_new(s, k);
+  return v;
 }
 
 }  // namespace pgdr

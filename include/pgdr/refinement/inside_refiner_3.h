@@ -58,7 +58,7 @@ class Inside_refiner_3 {
       trial = s.task().region.contains(t.at) ? try_point(s, t) : Trial::no_room;
       if (trial == Trial::clear && !keeps_minimum(s, t)) trial = Trial::no_room;
     }
-    if (trial == Trial::clear) insert_steiner_point(s, t, classifier_);
+    if (trial == Trial::clear) tr_.tell(insert_steiner_point(s, t, classifier_));
     if (trial == Trial::no_room) room_.give_up(s, t);
   }
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/parallel/task_graph.h>
 #include <pgdr/refinement/leaf_refiner.h>
-#include <pgdr/schedule/task_graph.h>
 #include <pgdr/schedule/task_recorder.h>
 
 namespace pgdr {

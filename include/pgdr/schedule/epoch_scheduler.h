@@ -14,23 +14,21 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <pgdr/independence/buffer_condition.h>
 #include <pgdr/octree/linear_octree_3.h>
+#include <pgdr/parallel/task_graph.h>
+#include <pgdr/parallel/thread_arena.h>
 #include <pgdr/parameters.h>
 #include <pgdr/report/schedule_statistics.h>
 #include <pgdr/schedule/divided_work.h>
 #include <pgdr/schedule/leaf_table.h>
 #include <pgdr/schedule/split_decision.h>
-#include <pgdr/schedule/task_graph.h>
 #include <pgdr/schedule/task_order.h>
 #include <pgdr/schedule/task_recorder.h>
 
 namespace pgdr {
 
-/// Refines with all threads of the calling thread's TBB arena; the mesh is the same for every number of them.
+/// Refines with all threads of the calling thread's TBB arena (one without TBB); the mesh is the same for every number of them.
 ///
 /// Alternates between *waves*, graphs of leaf tasks in which the tasks of touching leaves are ordered by the octree
 /// alone, and *decisions* on which leaves to split. An epoch is what happens between two decisions. A task's effect is
@@ -53,8 +51,8 @@ class Epoch_scheduler {
   Epoch_scheduler(Engine& engine, const Parameters& parameters, std::size_t vertices)
       : engine_(engine), parameters_(parameters), vertices_(vertices),
         octree_(Octree_box::around(corner(engine.hull().lower), corner(engine.hull().upper))),
-        recorder_(parameters.record_tasks, tbb::this_task_arena::max_concurrency()) {
-    for (int t = 0; t < tbb::this_task_arena::max_concurrency(); ++t) workers_.push_back(engine.make_worker());
+        recorder_(parameters.record_tasks, thread_count()) {
+    for (unsigned t = 0; t < thread_count(); ++t) workers_.push_back(engine.make_worker());
   }
 
   /// Refines until nothing poor is left or a limit is reached; then returns false.
@@ -125,7 +123,7 @@ class Epoch_scheduler {
     statistics_.epochs.push_back(epoch);
     epoch_start_ = begin;
     epoch_serial_ = recorder_.serial();
-    tbb::parallel_for(std::size_t{0}, leaves_.size(), [this](std::size_t i) {
+    for_leaves(leaves_.size(), [this](std::uint32_t i) {
       Leaf& leaf = leaves_[i];
       leaf.target = leaf.final ? 0 : std::min(leaf.cap, zone_target(leaf.shortest));
       engine_.activate(leaf.work, leaf.target, outside_target(leaf));
@@ -163,7 +161,7 @@ class Epoch_scheduler {
       j += which[i] ? 8 : 1;
     }
     std::vector<std::vector<std::pair<std::uint32_t, Parcel>>> strays(leaves_.size());
-    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(leaves_.size()), [&](std::uint32_t i) {
+    for_leaves(leaves_.size(), [&](std::uint32_t i) {
       const std::uint32_t j = first[i];
       if (!which[i]) {
         fresh[j] = std::move(leaves_[i]);
@@ -303,9 +301,7 @@ class Epoch_scheduler {
     return task;
   }
 
-  std::uint16_t thread_tag() const {
-    return static_cast<std::uint16_t>(std::max(tbb::this_task_arena::current_thread_index(), 0) + 1);
-  }
+  static std::uint16_t thread_tag() { return static_cast<std::uint16_t>(thread_number() + 1); }
 
   /// The k-th runnable leaf: gathers what came for it, works, and leaves what belongs to others in its outbox.
   void run_leaf(std::size_t k, std::size_t quota) {
@@ -421,9 +417,7 @@ class Epoch_scheduler {
     return r;
   }
 
-  Worker& worker() {
-    return *workers_[static_cast<std::size_t>(std::max(tbb::this_task_arena::current_thread_index(), 0))];
-  }
+  Worker& worker() { return *workers_[thread_number()]; }
 
   // The octree of the paper.
 
@@ -455,10 +449,10 @@ class Epoch_scheduler {
   void judge_fixed_leaves() {
     const double begin = recorder_.now();
     std::vector<std::uint8_t> buffered(leaves_.size(), 0);
-    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+    for_leaves(octree_.size(), [&](std::uint32_t i) {
       buffered[i] = engine_.has_smaller_circumballs(closed_box(i), octree_.edge(i) / 6, leaves_[i].work);
     });
-    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+    for_leaves(octree_.size(), [&](std::uint32_t i) {
       std::vector<std::uint32_t> around;
       octree_.buffer(i, around);
       bool good = std::all_of(around.begin(), around.end(), [&](std::uint32_t n) { return buffered[n]; });

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include <pgdr/domain/region_3.h>
 #include <pgdr/octree/linear_octree_3.h>
+#include <pgdr/parallel/parallel_for.h>
 #include <pgdr/refinement/leaf_refiner.h>
 
 namespace pgdr {
@@ -64,10 +64,16 @@ inline Region_3 grown(Region_3 r, double by) {
   return r;
 }
 
+/// Calls f(i) for each of n leaves, at once.
+template <class F>
+void for_leaves(std::size_t n, const F& f) {
+  parallel_for(0, n, [&f](std::size_t i) { f(static_cast<std::uint32_t>(i)); });
+}
+
 /// Fills in what a leaf knows of its surroundings. The outboxes must be empty.
 template <class Engine>
 void connect_leaves(const Linear_octree_3& octree, std::vector<Scheduled_leaf<Engine>>& leaves) {
-  tbb::parallel_for(std::uint32_t{0}, octree.size(), [&](std::uint32_t i) {
+  for_leaves(octree.size(), [&](std::uint32_t i) {
     Scheduled_leaf<Engine>& leaf = leaves[i];
     octree.touching(i, leaf.touching);
     leaf.touching.shrink_to_fit();

@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include <pgdr/independence/zone_condition.h>
 #include <pgdr/schedule/leaf_table.h>
 
@@ -82,7 +80,7 @@ class Split_decision {
   void nominate() {
     std::vector<std::uint8_t> ended(octree_.size(), 0);
     gain_.assign(octree_.size(), 0);
-    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+    for_leaves(octree_.size(), [&](std::uint32_t i) {
       Leaf& leaf = leaves_[i];
       leaf.work.measure_deferred();
       if (leaf.final || leaf.work.deferred() == 0) return;
@@ -155,7 +153,7 @@ class Split_decision {
     for (std::uint32_t j = 0; j < next_.size(); ++j)
       target[parents_[j]] = std::min(target[parents_[j]], zone_target(next_.shortest_touching_edge(j)));
     std::vector<double> cost(octree_.size(), 0);
-    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+    for_leaves(octree_.size(), [&](std::uint32_t i) {
       if (target[i] < zone_target(leaves_[i].shortest)) cost[i] = engine_.estimate_outside(leaves_[i].work, target[i]);
     });
     return std::accumulate(cost.begin(), cost.end(), 0.0) <= outside_points_ * gains;
@@ -178,7 +176,7 @@ class Split_decision {
     judged_.assign(next_.size(), {});
     std::vector<std::uint32_t> first(octree_.size() + 1, 0);
     for (std::uint32_t i = 0; i < octree_.size(); ++i) first[i + 1] = first[i] + (split_[i] ? 8 : 1);
-    tbb::parallel_for(std::uint32_t{0}, octree_.size(), [&](std::uint32_t i) {
+    for_leaves(octree_.size(), [&](std::uint32_t i) {
       judge_family(first[i], first[i + 1], before);
     });
     last_ = next_;

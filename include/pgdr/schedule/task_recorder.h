@@ -8,9 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <tbb/task_arena.h>
-
 #include <pgdr/octree/octree_key.h>
+#include <pgdr/parallel/thread_arena.h>
 #include <pgdr/report/schedule_statistics.h>
 
 namespace pgdr {
@@ -20,8 +19,8 @@ class Task_recorder {
   using Clock = std::chrono::steady_clock;
 
  public:
-  Task_recorder(bool keep, int threads)
-      : keep_(keep), of_thread_(static_cast<std::size_t>(std::max(threads, 1))), start_(Clock::now()) {}
+  Task_recorder(bool keep, std::size_t threads)
+      : keep_(keep), of_thread_(threads), start_(Clock::now()) {}
 
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -66,11 +65,11 @@ class Task_recorder {
 
  private:
   void add(Task_record& r, double begin, double end) {
-    const int t = std::max(tbb::this_task_arena::current_thread_index(), 0);
+    const std::size_t t = thread_number();
     r.thread = static_cast<std::uint16_t>(t);
     r.start = begin;
     r.seconds = end - begin;
-    of_thread_[static_cast<std::size_t>(t)].push_back(r);
+    of_thread_[t].push_back(r);
   }
 
   bool keep_;

@@ -30,7 +30,7 @@ class Sliver_inserter_3 {
   using Point = typename Tr::Point;
 
   Sliver_inserter_3(Tr& tr, Complex& complex, const Tetrahedron_judge<Criteria>& judge, const Territory_3<Tr>& territory)
-      : complex_(complex), judge_(judge), cavity_(tr), gone_(judge.acute()) {
+      : tr_(tr), complex_(complex), judge_(judge), cavity_(tr), gone_(judge.acute()) {
     cavity_.set_territory(territory);
   }
 
@@ -60,6 +60,7 @@ class Sliver_inserter_3 {
     const Vertex_handle v = cavity_.commit(p);
     v->set_feature(3, Tr::Vertex::none);
     v->set_insertion_radius(nearest);
+    tr_.tell(v);
     if (replaces_exempt)
       for (const Cell_handle d : cavity_.star()) judge_.mark_exempt(d);
     return true;
@@ -118,6 +119,7 @@ class Sliver_inserter_3 {
     return 4 * cavity_.squared_insertion_radius(at) >= shortest;
   }
 
+  const Tr& tr_;
   Complex& complex_;
   Tetrahedron_judge<Criteria> judge_;
   Cavity_3<Tr> cavity_;

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_SCHEDULE_TASK_GRAPH_H
-#define PGDR_SCHEDULE_TASK_GRAPH_H
+#ifndef PGDR_PARALLEL_TASK_GRAPH_H
+#define PGDR_PARALLEL_TASK_GRAPH_H
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <vector>
 
-#include <tbb/flow_graph.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#ifdef CGAL_LINKED_WITH_TBB
+#include <oneapi/tbb/flow_graph.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#endif
 
 namespace pgdr {
+
+#ifdef CGAL_LINKED_WITH_TBB
 
 /// Runs `body(k)` for k = 0 ... n-1 as the nodes of a `tbb::flow::graph`: a task starts when all that precede it have
 /// ended. `successors(k, out)` fills in those that k precedes; it is called from several threads and must describe
@@ -19,6 +25,7 @@ namespace pgdr {
 /// else's end: those that are ready at once.
 template <class Successors, class Body>
 std::size_t run_task_graph(std::size_t n, const Successors& successors, const Body& body) {
+  namespace tbb = oneapi::tbb;
   using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
   tbb::flow::graph graph;
   std::deque<Node> nodes;
@@ -63,6 +70,31 @@ std::size_t run_task_graph(std::size_t n, const Successors& successors, const Bo
   graph.wait_for_all();
   return ready;
 }
+
+#else
+
+/// The same with one thread: those that are ready one after the other, in the order in which they became so.
+template <class Successors, class Body>
+std::size_t run_task_graph(std::size_t n, const Successors& successors, const Body& body) {
+  std::vector<std::uint32_t> waits_for(n, 0), out;
+  for (std::size_t k = 0; k < n; ++k) {
+    successors(k, out);
+    for (const std::uint32_t s : out) ++waits_for[s];
+  }
+  std::deque<std::size_t> ready;
+  for (std::size_t k = 0; k < n; ++k)
+    if (waits_for[k] == 0) ready.push_back(k);
+  const std::size_t ready_at_once = ready.size();
+  for (; !ready.empty(); ready.pop_front()) {
+    body(ready.front());
+    successors(ready.front(), out);
+    for (const std::uint32_t s : out)
+      if (--waits_for[s] == 0) ready.push_back(s);
+  }
+  return ready_at_once;
+}
+
+#endif
 
 }  // namespace pgdr
 

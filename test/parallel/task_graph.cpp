@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <pgdr/schedule/task_graph.h>
+#include <pgdr/parallel/task_graph.h>
 
 #include <algorithm>
 #include <atomic>
@@ -40,7 +40,7 @@ auto successors_of(const Graph& graph) {
 
 }  // namespace
 
-TEST_CASE("Every task runs once, after all that precede it", "[schedule]") {
+TEST_CASE("Every task runs once, after all that precede it", "[parallel]") {
   for (const unsigned threads : {1u, 2u, 8u})
     for (const std::uint32_t degree : {0u, 1u, 6u}) {
       const std::size_t n = 400;
@@ -76,13 +76,13 @@ TEST_CASE("Every task runs once, after all that precede it", "[schedule]") {
     }
 }
 
-TEST_CASE("No tasks are done at once", "[schedule]") {
+TEST_CASE("No tasks are done at once", "[parallel]") {
   CHECK(pgdr::run_task_graph(
             0, [](std::size_t, std::vector<std::uint32_t>& out) { out.clear(); },
             [](std::size_t) { FAIL("there is no task"); }) == 0);
 }
 
-TEST_CASE("What a task throws comes out, and what depends on it does not run", "[schedule]") {
+TEST_CASE("What a task throws comes out, and what depends on it does not run", "[parallel]") {
   // A chain through the one that throws, and others beside it.
   const std::size_t n = 60, bad = 20;
   Graph graph(n);
@@ -118,7 +118,7 @@ TEST_CASE("What a task throws comes out, and what depends on it does not run", "
   }
 }
 
-TEST_CASE("A thread that waits inside of a task takes no other task meanwhile", "[schedule]") {
+TEST_CASE("A thread that waits inside of a task takes no other task meanwhile", "[parallel]") {
   // As a user's sizing field does that calls a parallel loop of its own.
   constexpr std::size_t threads = 4, tasks = 200;
   std::vector<int> busy(threads, 0);
