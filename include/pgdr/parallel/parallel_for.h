@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <oneapi/tbb/blocked_range.h>
@@ -18,19 +19,28 @@ constexpr std::size_t default_grain = 4096;
 /// How many chunks of `grain` items `n` items make, the last one perhaps smaller.
 constexpr std::size_t chunk_count(std::size_t n, std::size_t grain) { return n / grain + (n % grain != 0); }
 
+namespace internal {
+
+/// Compiled once, whatever is called: what a task costs hides an indirect call.
+inline void parallel_for(std::size_t begin, std::size_t end, const std::function<void(std::size_t)>& f) {
+#ifdef CGAL_LINKED_WITH_TBB
+  namespace tbb = oneapi::tbb;
+  if (begin >= end) return;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 1), [&f](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
+  });
+#else
+  for (; begin < end; ++begin) f(begin);
+#endif
+}
+
+}  // namespace internal
+
 /// Calls f(i) for each i of [begin, end), at once on all threads of the caller's arena. Every call is a task of its
 /// own that another thread may take, so each should be worth microseconds.
 template <class F>
 void parallel_for(std::size_t begin, std::size_t end, const F& f) {
-#ifdef CGAL_LINKED_WITH_TBB
-  if (begin >= end) return;
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(begin, end, 1),
-                            [&f](const oneapi::tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
-                            });
-#else
-  for (; begin < end; ++begin) f(begin);
-#endif
+  internal::parallel_for(begin, end, std::cref(f));
 }
 
 /// Calls f(first, last) for each chunk [first, last) of `grain` items of [0, n), at once. Where the chunks begin

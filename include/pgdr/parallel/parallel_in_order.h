@@ -5,10 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#ifdef CGAL_LINKED_WITH_TBB
-#include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
-#endif
+#include <pgdr/parallel/parallel_pipeline.h>
 
 namespace pgdr {
 
@@ -19,40 +16,28 @@ namespace pgdr {
 /// again, so that its memory is. After an exception nothing more is used; it passes through.
 template <class Product, class Make, class Use>
 void parallel_in_order(std::size_t n, const Make& make, const Use& use) {
-#ifdef CGAL_LINKED_WITH_TBB
-  namespace tbb = oneapi::tbb;
   struct Item {
     std::size_t index = 0;
-    Product* product = nullptr;
+    Product product{};
   };
-  // At most `tokens` items are under way, and they are finished in order: item i may take what i - tokens left.
-  const auto tokens = 3 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  std::vector<Product> products(tokens);
+  // They are finished in order: item i may take what i - size left.
+  std::vector<Item> items(3 * std::size_t{thread_count()});
   std::size_t next = 0;
-  const auto begin = [&](tbb::flow_control& control) -> Item {
-    if (next == n) {
-      control.stop();
-      return {};
-    }
-    const Item item{next, &products[next % tokens]};
-    ++next;
-    return item;
+  const auto begin = [&]() -> void* {
+    if (next == n) return nullptr;
+    Item& item = items[next % items.size()];
+    item.index = next++;
+    return &item;
   };
-  const auto work = [&make](const Item& item) {
-    make(item.index, *item.product);
-    return item;
+  const auto work = [&make](void* at) {
+    Item& item = *static_cast<Item*>(at);
+    make(item.index, item.product);
   };
-  const auto finish = [&use](const Item& item) { use(item.index, *item.product); };
-  tbb::parallel_pipeline(tokens, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, begin) &
-                                     tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
-                                     tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, finish));
-#else
-  Product product;
-  for (std::size_t k = 0; k < n; ++k) {
-    make(k, product);
-    use(k, product);
-  }
-#endif
+  const auto finish = [&use](void* at) {
+    Item& item = *static_cast<Item*>(at);
+    use(item.index, item.product);
+  };
+  parallel_pipeline(items.size(), begin, work, finish);
 }
 
 }  // namespace pgdr

@@ -4,11 +4,10 @@
 
 #include <cstddef>
 #include <deque>
+#include <utility>
+#include <vector>
 
-#ifdef CGAL_LINKED_WITH_TBB
-#include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
-#endif
+#include <pgdr/parallel/parallel_pipeline.h>
 
 namespace pgdr {
 
@@ -23,30 +22,25 @@ auto parallel_walk(Iterator first, Iterator last, std::size_t grain, const F& f)
     std::size_t position = 0;
     Iterator first;
     std::size_t count = 0;
-    Value* value = nullptr;
+    Value value{};
   };
-  std::deque<Value> values;  // whose references stay valid while it grows
+  std::deque<Chunk> chunks;  // whose references stay valid while it grows
   std::size_t position = 0;
-  const auto step = [&] {
-    Chunk chunk{position, first, 0, &values.emplace_back()};
+  const auto step = [&]() -> void* {
+    if (first == last) return nullptr;
+    Chunk& chunk = chunks.emplace_back(Chunk{position, first});
     for (; chunk.count < grain && first != last; ++first) ++chunk.count;
     position += chunk.count;
-    return chunk;
+    return &chunk;
   };
-  const auto work = [&f](const Chunk& chunk) { *chunk.value = f(chunk.position, chunk.first, chunk.count); };
-#ifdef CGAL_LINKED_WITH_TBB
-  namespace tbb = oneapi::tbb;
-  const auto begin = [&](tbb::flow_control& control) -> Chunk {
-    if (first != last) return step();
-    control.stop();
-    return {};
+  const auto work = [&f](void* at) {
+    Chunk& chunk = *static_cast<Chunk*>(at);
+    chunk.value = f(chunk.position, chunk.first, chunk.count);
   };
-  const auto tokens = 4 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  tbb::parallel_pipeline(tokens, tbb::make_filter<void, Chunk>(tbb::filter_mode::serial_in_order, begin) &
-                                     tbb::make_filter<Chunk, void>(tbb::filter_mode::parallel, work));
-#else
-  while (first != last) work(step());
-#endif
+  parallel_pipeline(4 * std::size_t{thread_count()}, step, work);
+  std::vector<Value> values;
+  values.reserve(chunks.size());
+  for (Chunk& chunk : chunks) values.push_back(std::move(chunk.value));
   return values;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <vector>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -23,8 +24,8 @@ namespace pgdr {
 /// ended. `successors(k, out)` fills in those that k precedes; it is called from several threads and must describe
 /// an acyclic graph. Rethrows what a task throws, after the others have ended. Returns how many tasks precede no one
 /// else's end: those that are ready at once.
-template <class Successors, class Body>
-std::size_t run_task_graph(std::size_t n, const Successors& successors, const Body& body) {
+inline std::size_t run_task_graph(std::size_t n, const std::function<void(std::size_t, std::vector<std::uint32_t>&)>& successors,
+                                  const std::function<void(std::size_t)>& body) {
   namespace tbb = oneapi::tbb;
   using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
   tbb::flow::graph graph;
@@ -74,8 +75,8 @@ std::size_t run_task_graph(std::size_t n, const Successors& successors, const Bo
 #else
 
 /// The same with one thread: those that are ready one after the other, in the order in which they became so.
-template <class Successors, class Body>
-std::size_t run_task_graph(std::size_t n, const Successors& successors, const Body& body) {
+inline std::size_t run_task_graph(std::size_t n, const std::function<void(std::size_t, std::vector<std::uint32_t>&)>& successors,
+                                  const std::function<void(std::size_t)>& body) {
   std::vector<std::uint32_t> waits_for(n, 0), out;
   for (std::size_t k = 0; k < n; ++k) {
     successors(k, out);
