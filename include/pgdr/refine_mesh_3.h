@@ -195,10 +195,8 @@ class Mesher_3 {
   /// f(cell) for all cells that are meshed, on all threads.
   void for_meshed_cells(const auto& f) const {
     const Tr& tr = mesh_.triangulation();
-    parallel_walk(tr.finite_cells_begin(), tr.finite_cells_end(), default_grain, [&](std::size_t, auto it, std::size_t count) {
-      for (; count > 0; --count, ++it)
-        if (it->subdomain() != 0) f(typename Tr::Cell_handle(it));
-      return 0;
+    parallel_for_each(tr.finite_cells_begin(), tr.finite_cells_end(), default_grain, [&f](auto it) {
+      if (it->subdomain() != 0) f(typename Tr::Cell_handle(it));
     });
   }
 

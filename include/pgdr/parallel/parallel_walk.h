@@ -44,6 +44,15 @@ auto parallel_walk(Iterator first, Iterator last, std::size_t grain, const F& f)
   return values;
 }
 
+/// Calls f(iterator) for each item of such a range, `grain` of them a task.
+template <class Iterator, class F>
+void parallel_for_each(Iterator first, Iterator last, std::size_t grain, const F& f) {
+  parallel_walk(first, last, grain, [&f](std::size_t, Iterator it, std::size_t count) {
+    for (; count > 0; --count, ++it) f(it);
+    return true;
+  });
+}
+
 }  // namespace pgdr
 
 #endif

@@ -2,8 +2,6 @@
 #ifndef PGDR_SLIVERS_VERTEX_TERRITORIES_3_H
 #define PGDR_SLIVERS_VERTEX_TERRITORIES_3_H
 
-#include <cstddef>
-
 #include <pgdr/parallel/parallel_for.h>
 #include <pgdr/parallel/parallel_walk.h>
 #include <pgdr/refinement/divide_worklist_3.h>
@@ -14,11 +12,7 @@ namespace pgdr {
 /// Calls f(v) for each finite vertex, with all threads of the caller's arena.
 template <class Tr, class F>
 void for_vertices_in_parallel(const Tr& tr, const F& f) {
-  const auto take = [&f](std::size_t, auto v, std::size_t count) {
-    for (; count > 0; --count, ++v) f(typename Tr::Vertex_handle(v));
-    return true;
-  };
-  parallel_walk(tr.finite_vertices_begin(), tr.finite_vertices_end(), default_grain, take);
+  parallel_for_each(tr.finite_vertices_begin(), tr.finite_vertices_end(), default_grain, [&f](auto v) { f(typename Tr::Vertex_handle(v)); });
 }
 
 /// As `mark_territories`, with all threads of the caller's arena.
