@@ -15,9 +15,9 @@
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Simple_cartesian.h>
 
-#include <pgdr/acute/facet_wedges_3.h>
 #include <pgdr/acute/narrow_angles_3.h>
 #include <pgdr/acute/protected_balls_3.h>
+#include <pgdr/acute/wedges_3.h>
 #include <pgdr/domain/detail/aabb_trees.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/feature_id.h>
@@ -38,7 +38,7 @@ class Acute_neighborhood_3 {
   static constexpr double limit = 60;
 
   template <class K>
-  explicit Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes = {}) : wedges_(domain), sizes_(std::move(sizes)) {
+  explicit Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes = {}) : wedges_(domain), segment_wedges_(domain), sizes_(std::move(sizes)) {
     const Small_angles angles = small_angles_3(domain);
     is_acute_vertex_.resize(domain.vertices.size(), false);
     list_small_angles(domain, angles);
@@ -67,6 +67,7 @@ class Acute_neighborhood_3 {
   bool is_acute_vertex(Index v) const { return is_acute_vertex_[v]; }
 
   const Facet_wedges_3& wedges() const { return wedges_; }
+  const Segment_wedges_3& segment_wedges() const { return segment_wedges_; }
   const Protected_balls_3& balls() const { return *balls_; }
   const Narrow_angles_3& narrow() const { return *narrow_; }
 
@@ -178,6 +179,7 @@ class Acute_neighborhood_3 {
   }
 
   Facet_wedges_3 wedges_;
+  Segment_wedges_3 segment_wedges_;
   Size_bounds sizes_;
   std::optional<Protected_balls_3> balls_;
   std::optional<Narrow_angles_3> narrow_;

@@ -37,6 +37,7 @@ struct Split_guard {
   double floor_apart = 0;               ///< if positive, in the place of `floor` for pieces without a vertex in which
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
   double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex inherits
+  double inherited = 0;                 ///< the insertion radius that it has at least
   bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
   double size = 0;                      ///< that the client is over; 0: it is not
   bool is_strict = false;               ///< the floor holds everywhere

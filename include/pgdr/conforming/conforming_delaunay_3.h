@@ -37,10 +37,11 @@ template <class Tr>
 void start_segment_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
   auto& complex = refiner.complex();
   Vertex_star_3<Tr> star;
-  const auto slots = static_cast<std::uint32_t>(complex.subsegment_slots());
-  for (std::uint32_t s = 0; s < slots; ++s)
+  const auto slots = [&] { return static_cast<std::uint32_t>(complex.subsegment_slots()); };
+  for (std::uint32_t s = 0; s < slots(); ++s)
     if (complex.subsegment(s).alive() && !mark_subsegment(tr, complex, star, s)) refiner.note_missing_subsegment(s);
-  for (std::uint32_t s = 0; s < slots; ++s)
+  refiner.mirror_corners();
+  for (std::uint32_t s = 0; s < slots(); ++s)
     if (complex.subsegment(s).present) internal::queue_if_encroached_subsegment(tr, refiner, star, s);
 }
 

@@ -212,6 +212,29 @@ class Constraint_complex_3 {
     return none;
   }
 
+  /// The subsegment of a segment that holds a point between the segment's ends. Looks at all from the nearer end on.
+  std::uint32_t find_on_segment(Index segment, const Vec_3& m) const {
+    const auto ends = domain_->segments[segment].vertices;
+    const Vec_3 a = to_vec(domain_->vertices[ends[0]]), b = to_vec(domain_->vertices[ends[1]]);
+    const bool is_first = squared_distance(a, m) < squared_distance(b, m);
+    const Index corner = ends[is_first ? 0 : 1];
+    const Vec_3& origin = is_first ? a : b;
+    const auto& list = corner_subsegments_[corner];
+    const auto first = std::ranges::find_if(list, [&](std::uint32_t i) { return subsegments_[i].segment == segment; });
+    if (first == list.end()) return none;
+    Vertex_handle behind;
+    for (std::uint32_t i = *first;;) {
+      const auto& v = subsegments_[i].vertices;
+      const bool is_forward = behind == Vertex_handle() ? v[0]->in_dimension() == 0 && v[0]->index() == corner : v[0] == behind;
+      const Vertex_handle ahead = v[is_forward ? 1 : 0];
+      if (squared_distance(position(ahead), origin) >= squared_distance(m, origin)) return i;
+      if (ahead->in_dimension() != 1) return none;
+      const auto& both = ahead->subsegments();
+      i = both[0] == i ? both[1] : both[0];
+      behind = ahead;
+    }
+  }
+
   /// Whether a vertex lies on a facet, as a matter of record, not of coordinates.
   bool is_on_facet(Vertex_handle v, Index facet) const {
     switch (v->in_dimension()) {

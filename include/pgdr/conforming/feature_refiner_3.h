@@ -18,9 +18,9 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/encroached_features_3.h>
 #include <pgdr/conforming/encroachment_3.h>
-#include <pgdr/conforming/facet_images_3.h>
 #include <pgdr/conforming/facet_star_3.h>
 #include <pgdr/conforming/feature_request.h>
+#include <pgdr/conforming/images_3.h>
 #include <pgdr/conforming/presence_3.h>
 #include <pgdr/conforming/sheet_repair_3.h>
 #include <pgdr/conforming/sheet_walk_3.h>
@@ -57,7 +57,7 @@ class Feature_refiner_3 {
 
   Feature_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, double min_edge_length)
       : tr_(tr), complex_(complex), acute_(acute), split_points_(complex, acute), spacing_(acute, min_edge_length),
-        cavity_(tr), search_(tr, complex, cavity_), images_(complex, acute.wedges()) {}
+        cavity_(tr), search_(tr, complex, cavity_), images_(complex, acute) {}
 
   /// The cavity that this refiner works with, shared with whoever inserts volume points on the same thread.
   Cavity_3<Tr>& cavity() { return cavity_; }
@@ -93,7 +93,7 @@ class Feature_refiner_3 {
     (is_subsegment ? queues_.subsegments : queues_.subfacets).push(r);
   }
 
-  Facet_images_3<Tr>& images() { return images_; }
+  Images_3<Tr>& images() { return images_; }
 
   /// Where points may be inserted, and where the vertices of a missing piece must be: all of space to begin with.
   void set_region(const Region_3& region, const Region_3& near) {
@@ -131,6 +131,19 @@ class Feature_refiner_3 {
     if (torn_ || !unlabelled_cells_.empty() || r.reason == Split_reason::missing) return std::numeric_limits<double>::infinity();
     if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) return 0;
     return segment ? complex_.subsegment_radius(r.piece.slot) : complex_.subfacet_radius(r.piece.slot);
+  }
+
+  /// Puts the images of the domain's own vertices on segments. A vertex's insertion radius is for that its shortest segment.
+  void mirror_corners() {
+    std::vector<double> radius(complex_.domain().vertices.size(), std::numeric_limits<double>::infinity());
+    const auto for_each_end = [&](const auto& call) {
+      for (std::uint32_t s = 0; s < complex_.subsegment_slots(); ++s)
+        if (complex_.subsegment(s).alive())
+          for (const Vertex_handle v : complex_.subsegment(s).vertices) call(s, v);
+    };
+    for_each_end([&](std::uint32_t s, Vertex_handle v) { radius[v->index()] = std::min(radius[v->index()], 2 * complex_.subsegment_radius(s)); });
+    for_each_end([&](std::uint32_t s, Vertex_handle v) { images_.add_on_segments(v, complex_.subsegment(s).segment, radius[v->index()]); });
+    put_images();
   }
 
   /// Handles one request, subsegments before subfacets. \pre not idle.
@@ -246,7 +259,7 @@ class Feature_refiner_3 {
     Errand& e = *errand;
     if (e.is_image()) {
       if (!zone().is_near(e.by)) return false;
-      images_.add({e.by, e.facet, e.home, e.reason != Split_reason::missing});
+      images_.add({e.by, {2, e.facet}, e.home, e.by->insertion_radius(), e.reason != Split_reason::missing});
       put_images();
       return false;
     }
@@ -271,7 +284,7 @@ class Feature_refiner_3 {
   }
 
  private:
-  using Image = typename Facet_images_3<Tr>::Image;
+  using Image = typename Images_3<Tr>::Image;
   static constexpr auto always = [](std::uint32_t, const Vec_3&) { return true; };
   static constexpr std::size_t most_images = 10000;  ///< and pieces that they delete, of one point
 
@@ -482,8 +495,8 @@ class Feature_refiner_3 {
     return Split_outcome::refused;
   }
 
-  /// Gives the facets that meet v's at a small dihedral angle, and pass closer to v than other vertices are, a point at the
-  /// like place (see `Facet_wedges_3`).
+  /// Gives the features that meet v's at a small angle, and pass closer to v than other vertices are, a point at the
+  /// like place (see `Facet_wedges_3`, `Segment_wedges_3`).
   void mirror(Vertex_handle v, Split_reason reason) {
     images_.add_of(v, made_, reason != Split_reason::missing);
     put_images();
@@ -496,9 +509,10 @@ class Feature_refiner_3 {
     is_putting_images_ = false;
   }
 
-  /// Puts an image on its facet, or sends an errand there. Not where the facet is not, or has a vertex as near as v itself
+  /// Puts an image on its feature, or sends an errand there. Not where the feature is not, or has a vertex as near as v itself
   /// is, or subsegments are in the way.
   void put_image(const Image& i) {
+    if (i.on.dimension == 1) return put_on_segment(i);
     if (!region_.contains(i.at)) return hand_on(i);
     const Point p(i.at.x, i.at.y, i.at.z);
     if (const auto r = search_.from_vertex(p, i.by); r != Search_result::found)
@@ -506,7 +520,7 @@ class Feature_refiner_3 {
     features_.gather(complex_, cavity_);
     const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
     const double radius = i.by->insertion_radius(), near = 0.5 * std::min(radius, length(i.at - position(i.by)));
-    const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.facet); };
+    const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.on.index); };
     if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near ||
         spacing_.is_below_minimum(cavity_.squared_insertion_radius(i.at)))
       return cavity_.abandon();
@@ -521,10 +535,16 @@ class Feature_refiner_3 {
     }
   }
 
+  void put_on_segment(const Image& i) {
+    const std::uint32_t slot = images_.subsegment_at(i);
+    const Split_guard guard{.relaxed = std::max<double>(i.radius, i.by->relaxed_radius()), .inherited = i.radius};
+    if (slot != Complex::none) split_subsegment_at(slot, i.at, Split_reason::missing, guard, always);
+  }
+
   void hand_on(const Image& i) {
     auto errand = std::make_unique<Errand>();
     errand->by = i.by;
-    errand->facet = i.facet;
+    errand->facet = i.on.index;
     errand->home = i.at;
     errand->reason = i.is_usual ? Split_reason::encroached : Split_reason::missing;
     outgoing_.emplace_back(i.at, std::move(errand));
@@ -580,7 +600,8 @@ class Feature_refiner_3 {
   /// (`floor_apart`): a chain of causes does not go down by the same factor time after time.
   static void inherit(Vertex_handle v, const Split_guard& guard) {
     constexpr double part = 0.75;  // table in docs/robustness.md
-    if (guard.floor_apart > 0) v->set_insertion_radius(std::max<double>(v->insertion_radius(), part * guard.floor));
+    const double radius = std::max(guard.inherited, guard.floor_apart > 0 ? part * guard.floor : 0);
+    if (radius > 0) v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
     v->relax_radius(guard.relaxed);
   }
 
@@ -626,7 +647,7 @@ class Feature_refiner_3 {
   Cavity_features_3<Tr> features_;
   std::vector<Facet_star_3<Tr>> stars_;
   std::vector<std::uint32_t> made_;
-  Facet_images_3<Tr> images_;
+  Images_3<Tr> images_;
   Pool pool_;
   Region_3 region_;
   Feature_queues queues_;

@@ -33,6 +33,7 @@ Vec_3 inward(const Domain_3<K>& domain, const Sheet& sheet, const Vec_3& axis) {
 struct Facet_corner {
   Index facet = 0;
   Index vertex = 0;
+  std::array<Index, 2> others{};  ///< the other ends of the segments
   double angle_deg = 0;
 };
 
@@ -108,7 +109,7 @@ class Facet_edges {
           const bool more = next != by_side.end() && next->vertex == w.vertex && next->from == w.to;
           if (!more || next->from_segment) {
             // An internal segment that ends here has no neighbour: the angle is the whole turn.
-            if (w.to != first.from) result.push_back({w.facet, w.vertex, angle});
+            if (w.to != first.from) result.push_back({w.facet, w.vertex, {first.from, w.to}, angle});
             break;
           }
           w = *next;

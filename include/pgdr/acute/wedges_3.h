@@ -1,24 +1,76 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_ACUTE_FACET_WEDGES_3_H
-#define PGDR_ACUTE_FACET_WEDGES_3_H
+#ifndef PGDR_ACUTE_WEDGES_3_H
+#define PGDR_ACUTE_WEDGES_3_H
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/region_3.h>
+#include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
 
-/// Where a point of a facet comes to lie on another one that meets it at a small dihedral angle, if it is turned about the
-/// segment in which they meet.
+/// Where a point of a feature comes to lie on another one that meets it at a small angle, if it is turned about what they meet in: a segment,
+/// or a vertex.
 struct Mirror_image {
-  Index facet = 0;  ///< the other one
-  Vec_3 at;         ///< in its plane
+  Feature_id on;  ///< the other one
+  Vec_3 at;       ///< in its plane, or on it
+};
+
+/// The pairs of segments that follow each other around a corner of a facet, at less than `limit` degrees.
+///
+/// A vertex of one of them may lie in the diametral ball of a subsegment of the other, however short that is, unless both have vertices at
+/// like distances from the corner. Then none does: with unit vectors u and v along the two, a vertex d v and a subsegment from a u to b u,
+/// (d v - a u)(d v - b u) = d^2 - d (a + b) uv + ab >= (d - a)(d - b), which is negative only if d is between a and b.
+class Segment_wedges_3 {
+ public:
+  /// No triangle in a narrower corner has the bound of 2.
+  static constexpr double limit = Small_angles::critical_plane_angle_deg;
+
+  template <class K>
+  explicit Segment_wedges_3(const Domain_3<K>& domain) : of_segment_(domain.segments.size()) {
+    std::vector<Vec_3> points;
+    for (const auto& p : domain.vertices) points.push_back(to_vec(p));
+    const auto segment = [&](Index facet, Index a, Index b) {
+      const auto& list = domain.facets[facet].segments;
+      return *std::ranges::find_if(list, [&](Index s) { return domain.segments[s].vertices == std::array{std::min(a, b), std::max(a, b)}; });
+    };
+    for (const auto& corner : domain_detail::Facet_edges(domain).corners(points)) {
+      if (!(corner.angle_deg < limit)) continue;
+      const Vec_3& origin = points[corner.vertex];
+      const auto [a, b] = corner.others;
+      const Vec_3 u = domain_detail::normalized(points[a] - origin), v = domain_detail::normalized(points[b] - origin);
+      const Index s = segment(corner.facet, corner.vertex, a), t = segment(corner.facet, corner.vertex, b);
+      const double chord = length(u - v);
+      of_segment_[s].push_back({t, origin, v, length(points[b] - origin), chord});
+      of_segment_[t].push_back({s, origin, u, length(points[a] - origin), chord});
+    }
+  }
+
+  /// Calls `found` with each image of m, a point of the segment or an end, that is within `distance` of it.
+  template <class Found>
+  void for_each_image(Index segment, const Vec_3& m, double distance, const Found& found) const {
+    for (const Wedge& w : of_segment_[segment]) {
+      const double d = length(m - w.origin);
+      if (0 < d && d < w.length && w.chord * d <= distance) found(Mirror_image{{1, w.other}, w.origin + d * w.along});
+    }
+  }
+
+ private:
+  struct Wedge {
+    Index other;
+    Vec_3 origin, along;  ///< the corner, and the unit vector from there along the other segment
+    double length;        ///< of the other segment
+    double chord;         ///< distance between a point and its image, in units of theirs from the corner
+  };
+  std::vector<std::vector<Wedge>> of_segment_;
 };
 
 /// The pairs of facets that meet at less than `limit` degrees in a segment.
@@ -76,7 +128,7 @@ class Facet_wedges_3 {
       const double h = dot(m - foot, w.inward);
       if (h <= 0 || w.chord * h > distance) continue;
       const Vec_3 at = foot + h * w.other_inward;
-      if (boxes_[w.other].contains_closed(at)) found(Mirror_image{w.other, at});
+      if (boxes_[w.other].contains_closed(at)) found(Mirror_image{{2, w.other}, at});
     }
   }
 

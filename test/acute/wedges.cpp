@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
-#include <pgdr/acute/facet_wedges_3.h>
+#include <pgdr/acute/wedges_3.h>
 #include <pgdr/domain/make_domain_3.h>
 
 #include "catch.h"
@@ -33,7 +35,63 @@ Plc wedge(Random& random, double degrees) {
   return plc;
 }
 
+/// A unit cube whose top is divided along a diagonal, with a triangle of height `h` on it whose apex is at `along` of its length.
+Plc capped_cube(double h, double along) {
+  const double x = along - h / std::numbers::sqrt2, y = along + h / std::numbers::sqrt2;
+  Plc plc;
+  plc.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {x, y, 1}};
+  const auto add = [&](const std::vector<pgdr::Index>& polygon, int marker) {
+    plc.facets.emplace_back();
+    plc.facets.back().polygons = {polygon};
+    plc.facets.back().marker = marker;
+  };
+  for (const auto& side : {std::vector<pgdr::Index>{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) add(side, 1);
+  add({4, 5, 6}, 2);
+  add({4, 6, 8}, 3);
+  add({4, 8, 6, 7}, 4);
+  return plc;
+}
+
 }  // namespace
+
+TEST_CASE("An image on a segment is as far from the corner, and vertices at like places are in no diametral ball", "[conforming]") {
+  Seeded_random random(3);
+  for (int k = 0; k < 100; ++k) {
+    const auto domain = pgdr::make_domain_3(capped_cube(std::pow(10.0, random.between(-8, -2)), random.between(0.3, 0.7)));
+    const pgdr::Segment_wedges_3 wedges(domain);
+    const Vec_3 apex = pgdr::to_vec(domain.vertices[8]);
+    int found = 0;
+    for (pgdr::Index s = 0; s < domain.segments.size(); ++s)
+      wedges.for_each_image(s, apex, 0.1, [&](const pgdr::Mirror_image& i) {
+        REQUIRE(i.on.dimension == 1);
+        const auto& ends = domain.segments[i.on.index].vertices;
+        REQUIRE((ends[0] == 4 && ends[1] == 6));  // the diagonal
+        const auto& own = domain.segments[s].vertices;
+        const Vec_3 corner = pgdr::to_vec(domain.vertices[own[0] == 8 ? own[1] : own[0]]);
+        const double d = pgdr::length(apex - corner);
+        CHECK(pgdr::length(i.at - corner) == Approx(d));
+        for (const auto& [a, b] : {std::pair{random.between(0, d), d}, std::pair{d, random.between(d, 1.4)}}) {
+          const Vec_3 u = (1 / d) * (i.at - corner);
+          CHECK(pgdr::dot(apex - corner - a * u, apex - corner - b * u) >= -1e-12);
+        }
+        ++found;
+      });
+    CHECK(found == 2);  // one from either end
+  }
+}
+
+TEST_CASE("What a low triangle costs does not depend on how low it is", "[conforming]") {
+  for (const double h : {1e-4, 1e-5, 1e-7})
+    for (const double along : {0.3, 0.5, 0.99, 0.999}) {
+      CAPTURE(h, along);
+      pgdr::Parameters parameters;
+      parameters.max_vertices = 3000;
+      const Mesh mesh = refined(capped_cube(h, along), std::numeric_limits<double>::infinity(), parameters);
+      CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
+      CHECK(mesh.statistics().unrecovered == 0);
+      CHECK(failures(pgdr::check_mesh(pgdr::indexed_mesh_3(mesh), &mesh.domain())) == "");
+    }
+}
 
 TEST_CASE("A mirror image is as high over the segment, and no nearer to a point of the other facet", "[conforming]") {
   Seeded_random random(1);
@@ -50,7 +108,7 @@ TEST_CASE("A mirror image is as high over the segment, and no nearer to a point 
     CAPTURE(k, degrees, h);
     int found = 0;
     wedges.for_each_image(0, q, gap * 1.0001, true, [&](const pgdr::Mirror_image& i) {
-      if (i.facet != 1) return;
+      if (i.on.index != 1) return;
       ++found;
       CHECK(i.at.x == Approx(h * std::cos(phi)));
       CHECK(i.at.y == Approx(h * std::sin(phi)));
@@ -73,7 +131,7 @@ TEST_CASE("A mirror image is as high over the segment, and no nearer to a point 
     const bool is_near = lower.x <= x && x <= upper.x && lower.y <= y && y <= upper.y && lower.z <= q.z && q.z <= upper.z;
     CHECK(found == (is_near ? 1 : 0));
     near += is_near;
-    const auto is_other = [&](const pgdr::Mirror_image& i) { CHECK(i.facet != 1); };
+    const auto is_other = [&](const pgdr::Mirror_image& i) { CHECK(i.on.index != 1); };
     wedges.for_each_image(0, q, gap * 0.9999, true, is_other);
     wedges.for_each_image(0, Vec_3{-h, 0, 0.5}, 1e9, true, is_other);
   }

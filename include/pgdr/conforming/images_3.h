@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_CONFORMING_FACET_IMAGES_3_H
-#define PGDR_CONFORMING_FACET_IMAGES_3_H
+#ifndef PGDR_CONFORMING_IMAGES_3_H
+#define PGDR_CONFORMING_IMAGES_3_H
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include <pgdr/acute/facet_wedges_3.h>
+#include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/encroachment_3.h>
@@ -15,24 +16,25 @@
 
 namespace pgdr {
 
-/// The mirror images of vertices on facets close by that have yet to be put there.
+/// The mirror images of vertices on features close by that have yet to be put there.
 template <class Tr>
-class Facet_images_3 {
+class Images_3 {
  public:
   using Complex = Constraint_complex_3<Tr>;
   using Vertex_handle = typename Tr::Vertex_handle;
   using Point = typename Tr::Point;
 
-  /// A point to be put on a facet for the sake of a vertex on another one.
+  /// A point to be put on a feature for the sake of a vertex on another one.
   struct Image {
     Vertex_handle by;
-    Index facet;
+    Feature_id on;
     Vec_3 at;
+    double radius;  ///< the insertion radius of that vertex
     bool is_usual;  ///< not for the sake of a missing piece, see `Facet_wedges_3`
     int tries = 0;  ///< of putting it there
   };
 
-  Facet_images_3(const Complex& complex, const Facet_wedges_3& wedges) : complex_(complex), wedges_(wedges) {}
+  Images_3(const Complex& complex, const Acute_neighborhood_3& acute) : complex_(complex), acute_(acute) {}
 
   bool empty() const { return images_.empty(); }
   void add(const Image& i) { images_.push_back(i); }
@@ -42,22 +44,30 @@ class Facet_images_3 {
     return i;
   }
 
-  /// Adds the images of v on facets that are much closer to it than the vertices that it was inserted between.
+  /// Adds the images of v on features that are much closer to it than the vertices that it was inserted between.
   /// `around` are subfacets at v, those of one facet one after the other.
   void add_of(Vertex_handle v, const std::vector<std::uint32_t>& around, bool is_usual) {
     Index facet = Tr::Vertex::none;
     const double distance = (is_usual ? 0.5 : 1) * v->insertion_radius();
     for (const std::uint32_t t : around)
       if (std::exchange(facet, complex_.subfacet(t).facet) != complex_.subfacet(t).facet)
-        wedges_.for_each_image(facet, position(v), distance, is_usual, [&](const Mirror_image& i) {
-          if (!complex_.is_on_facet(v, i.facet)) add({v, i.facet, complex_.plane(i.facet).project(i.at), is_usual});
+        acute_.wedges().for_each_image(facet, position(v), distance, is_usual, [&](const Mirror_image& i) {
+          if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.plane(i.on.index).project(i.at), v->insertion_radius(), is_usual});
         });
+    if (v->in_dimension() == 1 && is_alone()) add_on_segments(v, v->index(), v->insertion_radius());
+  }
+
+  /// Adds the images of a vertex of a segment, which may be one of its ends, on segments close by: only for one that is alone at work. To
+  /// conform to needles takes like points; when that is done refinement puts its own wherever it needs them, which images only add to.
+  void add_on_segments(Vertex_handle v, Index segment, double radius) {
+    acute_.segment_wedges().for_each_image(segment, position(v), close * radius,
+                                           [&](const Mirror_image& i) { add({v, i.on, i.at, radius, true}); });
   }
 
   /// Whether a point m put on this facet at this distance from other vertices would have images, wherever these are.
   bool has_images(Index facet, const Vec_3& m, double radius) const {
     bool found = false;
-    wedges_.for_each_image(facet, m, radius, true, [&](const Mirror_image&) { found = true; });
+    acute_.wedges().for_each_image(facet, m, radius, true, [&](const Mirror_image&) { found = true; });
     return found;
   }
 
@@ -69,7 +79,7 @@ class Facet_images_3 {
       if (complex_.subfacet(t).alive()) some_subfacet_[complex_.subfacet(t).facet] = t;
   }
   void note_made(const std::vector<std::uint32_t>& subfacets) {
-    if (some_subfacet_.empty()) return;
+    if (!is_alone()) return;
     for (const std::uint32_t t : subfacets) some_subfacet_[complex_.subfacet(t).facet] = t;
   }
 
@@ -77,18 +87,26 @@ class Facet_images_3 {
   std::uint32_t subfacet_at(const Image& i, const Point& p, const Cavity_features_3<Tr>& cavity,
                             const Fifo<Feature_request>& waiting) const {
     const auto holds = [&](std::uint32_t t) {
-      return complex_.subfacet(t).facet == i.facet && is_in_subfacet(complex_, complex_.subfacet(t), p);
+      return complex_.subfacet(t).facet == i.on.index && is_in_subfacet(complex_, complex_.subfacet(t), p);
     };
     for (const auto& f : cavity.subfacets())
       if (holds(f.slot)) return f.slot;
-    if (!some_subfacet_.empty()) {
-      const Sheet_place at = walk_in_sheet(complex_, some_subfacet_[i.facet], p);
+    if (is_alone()) {
+      const Sheet_place at = walk_in_sheet(complex_, some_subfacet_[i.on.index], p);
       return at.subsegment == Complex::none ? at.subfacet : Complex::none;
     }
     for (const Feature_request& r : waiting)
       if (r.reason == Split_reason::missing && complex_.is_live_subfacet(r.piece) && holds(r.piece.slot))
         return r.piece.slot;
     return Complex::none;
+  }
+
+  /// The subsegment that holds an image, if its ends are about as far from there as the image's vertex was from others. None if there is none.
+  std::uint32_t subsegment_at(const Image& i) const {
+    const std::uint32_t slot = complex_.find_on_segment(i.on.index, i.at);
+    if (slot == Complex::none) return slot;
+    const auto is_near = [&](Vertex_handle v) { return length(position(v) - i.at) < least * i.radius; };
+    return std::ranges::any_of(complex_.subsegment(slot).vertices, is_near) ? Complex::none : slot;
   }
 
   /// The subsegments that have to be split before an image's point p is put on the subfacet `at`. A segment's point does not mind
@@ -112,8 +130,15 @@ class Facet_images_3 {
   }
 
  private:
+  /// How close the other segment has to be for an image, of the vertex's insertion radius. Table in docs/robustness.md.
+  static constexpr double close = 0.01;
+  /// How far an image has to be from other vertices of its segment, of that radius: what a split may halve.
+  static constexpr double least = 0.5;
+
+  bool is_alone() const { return !some_subfacet_.empty(); }
+
   const Complex& complex_;
-  const Facet_wedges_3& wedges_;
+  const Acute_neighborhood_3& acute_;
   std::vector<Image> images_;
   std::vector<std::uint32_t> some_subfacet_;  ///< of each facet, where that is known
 };
