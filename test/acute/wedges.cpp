@@ -58,7 +58,7 @@ TEST_CASE("An image on a segment is as far from the corner, and vertices at like
   Seeded_random random(3);
   for (int k = 0; k < 100; ++k) {
     const auto domain = pgdr::make_domain_3(capped_cube(std::pow(10.0, random.between(-8, -2)), random.between(0.3, 0.7)));
-    const pgdr::Segment_wedges_3 wedges(domain);
+    const pgdr::Segment_wedges_3 wedges(domain, pgdr::domain_detail::Facet_edges(domain));
     const Vec_3 apex = pgdr::to_vec(domain.vertices[8]);
     int found = 0;
     for (pgdr::Index s = 0; s < domain.segments.size(); ++s)
@@ -99,7 +99,7 @@ TEST_CASE("A mirror image is as high over the segment, and no nearer to a point 
   for (int k = 0; k < 500; ++k) {
     const double degrees = random.between(0.5, 29.9), phi = degrees * std::numbers::pi / 180;
     const auto domain = pgdr::make_domain_3(wedge(random, degrees));
-    const pgdr::Facet_wedges_3 wedges(domain);
+    const pgdr::Facet_wedges_3 wedges(domain, pgdr::domain_detail::Facet_edges(domain));
     // Facet 0 is in the plane y = 0, facet 1 turned by phi about the z axis.
     REQUIRE(domain.facets.size() == 4);
     const double h = random.between(0.01, 2);

@@ -38,28 +38,8 @@ class Acute_neighborhood_3 {
   static constexpr double limit = 60;
 
   template <class K>
-  explicit Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes = {}) : wedges_(domain), segment_wedges_(domain), sizes_(std::move(sizes)) {
-    const Small_angles angles = small_angles_3(domain);
-    is_acute_vertex_.resize(domain.vertices.size(), false);
-    list_small_angles(domain, angles);
-    const auto point = [&](Index v) {
-      const Vec_3 p = to_vec(domain.vertices[v]);
-      return Kernel::Point_3(p.x, p.y, p.z);
-    };
-    for (Index v = 0; v < domain.vertices.size(); ++v) {
-      if (angles.vertex_deg[v] >= limit) continue;
-      is_acute_vertex_[v] = true;
-      vertices_.insert(point(v));
-    }
-    for (Index s = 0; s < domain.segments.size(); ++s)
-      if (angles.segment_deg[s] < limit)
-        segments_.emplace_back(point(domain.segments[s].vertices[0]), point(domain.segments[s].vertices[1]));
-    balls_.emplace(domain, is_acute_vertex_, sizes_);
-    narrow_.emplace(domain, angles);
-    segment_tree_.rebuild(segments_.begin(), segments_.end());
-    if (!segments_.empty()) segment_tree_.build();
-    if (vertices_.size() > 0) vertices_.build();
-  }
+  explicit Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes = {})
+      : Acute_neighborhood_3(domain, std::move(sizes), domain_detail::Facet_edges(domain)) {}
   Acute_neighborhood_3(const Acute_neighborhood_3&) = delete;
   Acute_neighborhood_3& operator=(const Acute_neighborhood_3&) = delete;
 
@@ -117,6 +97,31 @@ class Acute_neighborhood_3 {
   }
 
  private:
+  template <class K>
+  Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes, const domain_detail::Facet_edges& edges)
+      : wedges_(domain, edges), segment_wedges_(domain, edges), sizes_(std::move(sizes)) {
+    const Small_angles angles = small_angles_3(domain);
+    is_acute_vertex_.resize(domain.vertices.size(), false);
+    list_small_angles(domain, angles);
+    const auto point = [&](Index v) {
+      const Vec_3 p = to_vec(domain.vertices[v]);
+      return Kernel::Point_3(p.x, p.y, p.z);
+    };
+    for (Index v = 0; v < domain.vertices.size(); ++v) {
+      if (angles.vertex_deg[v] >= limit) continue;
+      is_acute_vertex_[v] = true;
+      vertices_.insert(point(v));
+    }
+    for (Index s = 0; s < domain.segments.size(); ++s)
+      if (angles.segment_deg[s] < limit)
+        segments_.emplace_back(point(domain.segments[s].vertices[0]), point(domain.segments[s].vertices[1]));
+    balls_.emplace(domain, is_acute_vertex_, sizes_);
+    narrow_.emplace(domain, angles);
+    segment_tree_.rebuild(segments_.begin(), segments_.end());
+    if (!segments_.empty()) segment_tree_.build();
+    if (vertices_.size() > 0) vertices_.build();
+  }
+
   /// A small angle: a vertex, or a segment with `segment_bit`.
   using Place = std::uint64_t;
   static constexpr Place segment_bit = Place{1} << 32;

@@ -35,14 +35,14 @@ class Segment_wedges_3 {
   static constexpr double limit = Small_angles::critical_plane_angle_deg;
 
   template <class K>
-  explicit Segment_wedges_3(const Domain_3<K>& domain) : of_segment_(domain.segments.size()) {
+  Segment_wedges_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges) : of_segment_(domain.segments.size()) {
     std::vector<Vec_3> points;
     for (const auto& p : domain.vertices) points.push_back(to_vec(p));
     const auto segment = [&](Index facet, Index a, Index b) {
       const auto& list = domain.facets[facet].segments;
       return *std::ranges::find_if(list, [&](Index s) { return domain.segments[s].vertices == std::array{std::min(a, b), std::max(a, b)}; });
     };
-    for (const auto& corner : domain_detail::Facet_edges(domain).corners(points)) {
+    for (const auto& corner : edges.corners(points)) {
       if (!(corner.angle_deg < limit)) continue;
       const Vec_3& origin = points[corner.vertex];
       const auto [a, b] = corner.others;
@@ -88,7 +88,7 @@ class Facet_wedges_3 {
   static constexpr double usual_limit = 30;
 
   template <class K>
-  explicit Facet_wedges_3(const Domain_3<K>& domain) : of_facet_(domain.facets.size()) {
+  Facet_wedges_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges) : of_facet_(domain.facets.size()) {
     using namespace domain_detail;
     for (const auto& f : domain.facets) {
       Region_3& box = boxes_.emplace_back();
@@ -101,7 +101,6 @@ class Facet_wedges_3 {
         }
       }
     }
-    const Facet_edges edges(domain);
     for (Index s = 0; s < domain.segments.size(); ++s) {
       const auto [a, b] = domain.segments[s].vertices;
       const Vec_3 origin = to_vec(domain.vertices[a]), along = to_vec(domain.vertices[b]) - origin;

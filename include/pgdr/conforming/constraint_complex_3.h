@@ -222,11 +222,11 @@ class Constraint_complex_3 {
     const auto& list = corner_subsegments_[corner];
     const auto first = std::ranges::find_if(list, [&](std::uint32_t i) { return subsegments_[i].segment == segment; });
     if (first == list.end()) return none;
-    Vertex_handle behind;
-    for (std::uint32_t i = *first;;) {
+    std::uint32_t i = *first;
+    const auto is_corner = [&](Vertex_handle v) { return v->in_dimension() == 0 && v->index() == corner; };
+    for (Vertex_handle behind = *std::ranges::find_if(subsegments_[i].vertices, is_corner);;) {
       const auto& v = subsegments_[i].vertices;
-      const bool is_forward = behind == Vertex_handle() ? v[0]->in_dimension() == 0 && v[0]->index() == corner : v[0] == behind;
-      const Vertex_handle ahead = v[is_forward ? 1 : 0];
+      const Vertex_handle ahead = v[v[0] == behind ? 1 : 0];
       if (squared_distance(position(ahead), origin) >= squared_distance(m, origin)) return i;
       if (ahead->in_dimension() != 1) return none;
       const auto& both = ahead->subsegments();
