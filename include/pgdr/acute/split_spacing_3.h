@@ -17,7 +17,7 @@ namespace pgdr {
 /// Whether a point may come as close to the vertices around it as it would.
 enum class Spacing : std::uint8_t {
   wide_enough,
-  too_close,     ///< next to a small angle
+  too_close,     ///< next to a small angle, or on a bent facet
   below_minimum  ///< closer than the minimum edge length
 };
 
@@ -57,11 +57,13 @@ class Split_spacing_3 {
   /// Whether a point at this squared distance from a vertex is too close to it, whoever asks for the point.
   bool is_below_minimum(double squared_distance) const { return squared_distance < squared_min_edge_; }
 
-  /// Whether m, the split point of a piece with these vertices and this radius, is to be inserted.
+  /// Whether m, the split point of a piece with these vertices and this radius, is to be inserted. `bend`: how far the piece's facet is off
+  /// one plane. Refinement is about facets that are plane: to this one, a distance below that is none (docs/theory.md, after theorem 5).
   Spacing spacing(const Cavity_3<Tr>& cavity, const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason,
-                  const Split_guard& guard, double radius) const {
+                  const Split_guard& guard, double radius, double bend) const {
     const double d2 = cavity.squared_insertion_radius(m);
     if (is_below_minimum(d2)) return Spacing::below_minimum;
+    if (reason != Split_reason::missing && guard.size == 0 && d2 < bend * bend) return Spacing::too_close;
     const double floor2 = squared_floor(vertices, guard);
     if (reason == Split_reason::missing || d2 >= floor2 || squared_distance(cavity, m, on) >= floor2) return Spacing::wide_enough;
     return is_near_angle(m, guard, radius) ? Spacing::too_close : Spacing::wide_enough;

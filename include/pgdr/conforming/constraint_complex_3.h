@@ -96,10 +96,12 @@ class Constraint_complex_3 {
     planes_.reserve(domain.facets.size());
     for (const auto& f : domain.facets) {
       const Facet_plane_3& plane = planes_.emplace_back(f.origin, f.normal);
-      is_bent_.push_back(std::ranges::any_of(f.vertices, [&](Index v) {
+      double bend = 0;
+      for (const Index v : f.vertices) {
         const Vec_3 p = to_vec(domain.vertices[v]);
-        return length(plane.project(p) - p) > flatness * domain.diagonal;
-      }));
+        bend = std::max(bend, length(plane.project(p) - p));
+      }
+      bends_.push_back(bend > flatness * domain.diagonal ? bend : 0);
     }
     corner_subsegments_.resize(domain.vertices.size());
     sides_.resize(domain.facets.size(), {unknown_side, unknown_side});
@@ -109,7 +111,9 @@ class Constraint_complex_3 {
   const Facet_plane_3& plane(Index facet) const { return planes_[facet]; }
 
   /// Whether vertices of a facet are off its plane, since it was fused of near-coplanar ones.
-  bool is_bent(Index facet) const { return is_bent_[facet]; }
+  bool is_bent(Index facet) const { return bends_[facet] > 0; }
+  /// How far they are off it at most; 0 if that is rounding only.
+  double bend(Index facet) const { return bends_[facet]; }
 
   /// Where a point of a facet's plane that is in a subfacet goes: onto the subfacet, where the vertices of a fused facet are off its plane. If
   /// all points were in the plane there would be a step along its segments, as high as these are off.
@@ -346,7 +350,7 @@ class Constraint_complex_3 {
 
   const Domain* domain_;
   std::vector<Facet_plane_3> planes_;
-  std::vector<bool> is_bent_;
+  std::vector<double> bends_;
   Slot_array<Subsegment> subsegments_;
   Slot_array<Subfacet> subfacets_;
   std::vector<std::array<std::int32_t, 2>> sides_;

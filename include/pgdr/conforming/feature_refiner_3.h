@@ -485,7 +485,8 @@ class Feature_refiner_3 {
   const Territory_3<Tr>& territory() const { return cavity_.territory(); }
 
   bool is_wide_enough(const Vec_3& m, const Feature_id& on, const auto& vertices, Split_reason reason, const Split_guard& guard, double radius) {
-    const Spacing spacing = spacing_.spacing(cavity_, m, on, vertices, reason, guard, radius);
+    const double bend = on.dimension == 2 ? complex_.bend(on.index) : 0;
+    const Spacing spacing = spacing_.spacing(cavity_, m, on, vertices, reason, guard, radius, bend);
     met_minimum_ = met_minimum_ || spacing == Spacing::below_minimum;
     return spacing == Spacing::wide_enough;
   }
