@@ -2,12 +2,13 @@
 #include <pgdr/acute/split_spacing_3.h>
 
 #include <array>
+#include <vector>
 
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
 
 #include "catch.h"
-#include "refinement/refined.h"
+#include "domain/shapes.h"
 
 using namespace pgdr_test;
 using pgdr::Spacing;
@@ -15,19 +16,14 @@ using pgdr::Split_reason;
 
 TEST_CASE("On a bent facet nothing is as near as it is bent, but what is missing or for size") {
   using Tr = pgdr::Mesh_triangulation_3<pgdr::Default_kernel>;
-  pgdr::Plc plc;
-  plc.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const auto& t : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
-    plc.facets.emplace_back();
-    plc.facets.back().polygons.emplace_back(t.begin(), t.end());
-  }
+  const pgdr::Plc plc = box();
   const auto domain = pgdr::make_domain_3(plc);
   const pgdr::Acute_neighborhood_3 acute(domain);
   const pgdr::Split_spacing_3<Tr> spacing(acute, 0);
   Tr tr;
-  std::array<Tr::Vertex_handle, 4> v;
-  for (std::size_t k = 0; k < 4; ++k) v[k] = tr.insert(plc.vertices[k]);
-  // In the facet below, 0.25 from its nearest vertex.
+  std::vector<Tr::Vertex_handle> v;
+  for (const auto& p : plc.vertices) v.push_back(tr.insert(p));
+  // On the facet below, 0.25 from its nearest vertex.
   const pgdr::Vec_3 m{0.25, 0, 0};
   pgdr::Cavity_3<Tr> cavity(tr);
   REQUIRE(cavity.find({m.x, m.y, m.z}, tr.finite_cells_begin()));

@@ -9,6 +9,7 @@
 #include <pgdr/domain/make_domain_3.h>
 
 #include "catch.h"
+#include "domain/shapes.h"
 #include "refinement/refined.h"
 #include "seeded_random.h"
 
@@ -38,17 +39,11 @@ Plc wedge(Random& random, double degrees) {
 /// A unit cube whose top is divided along a diagonal, with a triangle of height `h` on it whose apex is at `along` of its length.
 Plc capped_cube(double h, double along) {
   const double x = along - h / std::numbers::sqrt2, y = along + h / std::numbers::sqrt2;
-  Plc plc;
-  plc.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {x, y, 1}};
-  const auto add = [&](const std::vector<pgdr::Index>& polygon, int marker) {
-    plc.facets.emplace_back();
-    plc.facets.back().polygons = {polygon};
-    plc.facets.back().marker = marker;
-  };
-  for (const auto& side : {std::vector<pgdr::Index>{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) add(side, 1);
-  add({4, 5, 6}, 2);
-  add({4, 6, 8}, 3);
-  add({4, 8, 6, 7}, 4);
+  Plc plc = box();
+  plc.vertices.emplace_back(x, y, 1);
+  plc.facets.erase(plc.facets.begin() + 1);  // the top
+  int marker = 1;
+  for (const std::vector<pgdr::Index>& part : {std::vector<pgdr::Index>{4, 5, 7}, {4, 7, 8}, {4, 8, 7, 6}}) plc.facets.push_back({{part}, {}, marker++});
   return plc;
 }
 
@@ -65,7 +60,7 @@ TEST_CASE("An image on a segment is as far from the corner, and vertices at like
       wedges.for_each_image(s, apex, 0.1, [&](const pgdr::Mirror_image& i) {
         REQUIRE(i.on.dimension == 1);
         const auto& ends = domain.segments[i.on.index].vertices;
-        REQUIRE((ends[0] == 4 && ends[1] == 6));  // the diagonal
+        REQUIRE((ends[0] == 4 && ends[1] == 7));  // the diagonal
         const auto& own = domain.segments[s].vertices;
         const Vec_3 corner = pgdr::to_vec(domain.vertices[own[0] == 8 ? own[1] : own[0]]);
         const double d = pgdr::length(apex - corner);
