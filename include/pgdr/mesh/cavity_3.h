@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
 #include <vector>
 
+#include <pgdr/mesh/edge_table.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
 #include <pgdr/mesh/territory_3.h>
 #include <pgdr/mesh/zone_guard_3.h>
@@ -247,10 +247,8 @@ class Cavity_3 {
     if (boundary_vertices_ <= table_side) {
       glue([this](std::uint32_t a, std::uint32_t b) -> std::uint32_t& { return partner_[a * table_side + b]; });
     } else {
-      std::unordered_map<std::uint64_t, std::uint32_t> table;
-      glue([&table](std::uint32_t a, std::uint32_t b) -> std::uint32_t& {
-        return table[(static_cast<std::uint64_t>(a) << 32) | b];
-      });
+      edges_.reset(faces_.size() + faces_.size() / 2);
+      glue([this](std::uint32_t a, std::uint32_t b) -> std::uint32_t& { return edges_(a, b); });
     }
   }
 
@@ -287,6 +285,7 @@ class Cavity_3 {
   std::vector<Face> faces_;
   std::vector<Cell_handle> star_;
   std::vector<std::uint32_t> partner_;
+  Edge_table edges_;  ///< the same for boundaries with more vertices
   std::uint32_t boundary_vertices_ = 0;
 };
 
