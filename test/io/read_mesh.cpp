@@ -27,8 +27,11 @@
 
 namespace {
 
+/// With its slivers: what is put on facets to remove them may encroach other pieces, which are split when the mesh is meshed again.
 pgdr::Indexed_mesh_3 meshed(const pgdr::Plc& plc, double size) {
-  return pgdr::mesh_domain(pgdr::valid_domain(plc, 1e-6), pgdr::Combined_sizing_field(pgdr::Uniform_sizing_field(size))).mesh;
+  pgdr::Parameters parameters;
+  parameters.min_dihedral = 0;
+  return pgdr::mesh_domain(pgdr::valid_domain(plc, 1e-6), pgdr::Combined_sizing_field(pgdr::Uniform_sizing_field(size)), parameters).mesh;
 }
 
 std::map<int, std::size_t> counts(const std::vector<std::int32_t>& references) {

@@ -90,7 +90,7 @@ class Feature_refiner_3 {
       if (!tr_.is_infinite(v) && encroaches(complex_, t, v)) return note_encroached_subfacet(slot, v);
   }
   void request(bool is_subsegment, const Feature_request& r) {
-    (is_subsegment ? queues_.subsegments : queues_.subfacets).push(r);
+    queues_.push(is_subsegment, r);
   }
 
   Images_3<Tr>& images() { return images_; }
@@ -127,7 +127,7 @@ class Feature_refiner_3 {
   /// may come first. \pre not idle
   double next_radius() const {
     const bool segment = has_subsegments();
-    const Feature_request& r = segment ? queues_.subsegments[0] : queues_.subfacets[0];
+    const Feature_request& r = queues_.next(segment);
     if (torn_ || !unlabelled_cells_.empty() || r.reason == Split_reason::missing) return std::numeric_limits<double>::infinity();
     if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) return 0;
     return segment ? complex_.subsegment_radius(r.piece.slot) : complex_.subfacet_radius(r.piece.slot);
@@ -229,7 +229,7 @@ class Feature_refiner_3 {
   void hand_on_all() {
     while (!is_idle()) {
       const bool segment = has_subsegments();
-      const Feature_request r = segment ? queues_.subsegments.pop() : queues_.subfacets.pop();
+      const Feature_request r = queues_.pop(segment);
       if (segment ? !complex_.is_live_subsegment(r.piece) : !complex_.is_live_subfacet(r.piece)) continue;
       elsewhere_ = {segment ? split_points_.of_subsegment(r.piece.slot) : split_points_.of_subfacet(r.piece.slot, r.reason),
                     r.piece, segment};
@@ -242,11 +242,11 @@ class Feature_refiner_3 {
     Feature_queues others;
     while (!is_idle() && !is_cancelled()) {
       const bool segment = has_subsegments();
-      const Feature_request r = segment ? queues_.subsegments.pop() : queues_.subfacets.pop();
+      const Feature_request r = queues_.pop(segment);
       if (r.reason == Split_reason::missing)
         split(r, segment);
       else
-        (segment ? others.subsegments : others.subfacets).push(r);
+        others.push(segment, r);
     }
     others.take_all(queues_);
     std::swap(queues_, others);
@@ -341,7 +341,7 @@ class Feature_refiner_3 {
 
   void handle(bool only_missing) {
     const bool segment = has_subsegments();
-    const Feature_request r = segment ? queues_.subsegments.pop() : queues_.subfacets.pop();
+    const Feature_request r = queues_.pop(segment);
     if (!only_missing || r.reason == Split_reason::missing) split(r, segment);
   }
 
@@ -461,7 +461,7 @@ class Feature_refiner_3 {
   /// Sends a request to where its point is; what is missing waits for quieter times.
   void hand_on(const Feature_request& r, bool segment) {
     if (r.reason == Split_reason::missing) {
-      (segment ? stranded_.subsegments : stranded_.subfacets).push(r);
+      stranded_.push(segment, r);
       return;
     }
     auto errand = std::make_unique<Errand>();

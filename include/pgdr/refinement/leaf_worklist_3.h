@@ -184,15 +184,25 @@ class Leaf_worklist_3 {
   template <class Number_of>
   void divide(std::vector<Leaf_worklist_3>& parts, const Number_of& number_of) {
     const auto hand_out = [&](const auto& queue_of, const auto&... more) {
-      auto& queue = queue_of(*this);
-      for (std::size_t n = queue.size(); n > 0; --n) {
+      for (auto queue = std::exchange(queue_of(*this), {}); !queue.empty();) {
         auto item = queue.pop();
         const std::uint16_t k = number_of(item, more...);
         if (k != dead) queue_of(k == 0 ? *this : parts[k - 1u]).push(std::move(item));
       }
     };
-    hand_out([](auto& list) -> auto& { return list.active_; });
-    hand_out([](auto& list) -> auto& { return list.active_outside_; });
+    // Where large ones stay, smaller ones around them are not handed out either: they would come first then, with all the large cavities that
+    // `Radius_queue` is to spare (a15: 30 seconds instead of 22).
+    const auto hand_out_largest = [&](const auto& queue_of) {
+      for (bool stays = false; !stays && !queue_of(*this).empty();)
+        for (auto largest = queue_of(*this).pop_class(); !largest.empty();) {
+          const Cell_id id = largest.pop();
+          const std::uint16_t k = number_of(id);
+          stays |= k == 0;
+          if (k != dead) queue_of(k == 0 ? *this : parts[k - 1u]).push(id);
+        }
+    };
+    hand_out_largest([](auto& list) -> auto& { return list.active_; });
+    hand_out_largest([](auto& list) -> auto& { return list.active_outside_; });
     hand_out([](auto& list) -> auto& { return list.errands_; });
     hand_out([](auto& list) -> auto& { return list.retries_; }, true);
     hand_out([](auto& list) -> auto& { return list.queues_.subsegments; }, true);

@@ -40,6 +40,14 @@ class Radius_queue {
     return item;
   }
 
+  /// All those within a factor of 2 of the largest, in their order. \pre not empty
+  Fifo<Item> pop_class() {
+    Fifo<Item> items = std::move(classes_.begin()->second);
+    classes_.erase(classes_.begin());
+    size_ -= items.size();
+    return items;
+  }
+
   /// Those that come next. \pre not empty
   const Fifo<Item>& next() const { return classes_.begin()->second; }
 
