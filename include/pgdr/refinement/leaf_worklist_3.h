@@ -183,23 +183,22 @@ class Leaf_worklist_3 {
   /// \pre nothing is torn or fresh
   template <class Number_of>
   void divide(std::vector<Leaf_worklist_3>& parts, const Number_of& number_of) {
-    const auto hand_out = [&](const auto& queue_of, const auto&... more) {
-      for (auto queue = std::exchange(queue_of(*this), {}); !queue.empty();) {
+    // Whether something stays.
+    const auto hand_out_from = [&](auto&& queue, const auto& queue_of, const auto&... more) {
+      bool stays = false;
+      while (!queue.empty()) {
         auto item = queue.pop();
         const std::uint16_t k = number_of(item, more...);
+        stays |= k == 0;
         if (k != dead) queue_of(k == 0 ? *this : parts[k - 1u]).push(std::move(item));
       }
+      return stays;
     };
+    const auto hand_out = [&](const auto& queue_of, const auto&... more) { hand_out_from(std::exchange(queue_of(*this), {}), queue_of, more...); };
     // Where large ones stay, smaller ones around them are not handed out either: they would come first then, with all the large cavities that
     // `Radius_queue` is to spare (a15: 30 seconds instead of 22).
     const auto hand_out_largest = [&](const auto& queue_of) {
-      for (bool stays = false; !stays && !queue_of(*this).empty();)
-        for (auto largest = queue_of(*this).pop_class(); !largest.empty();) {
-          const Cell_id id = largest.pop();
-          const std::uint16_t k = number_of(id);
-          stays |= k == 0;
-          if (k != dead) queue_of(k == 0 ? *this : parts[k - 1u]).push(id);
-        }
+      while (!queue_of(*this).empty() && !hand_out_from(queue_of(*this).pop_class(), queue_of)) {}
     };
     hand_out_largest([](auto& list) -> auto& { return list.active_; });
     hand_out_largest([](auto& list) -> auto& { return list.active_outside_; });
