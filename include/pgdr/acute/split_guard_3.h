@@ -36,7 +36,7 @@ struct Split_guard {
   double reach = 0;                     ///< within this distance of a small angle; for `count` 0, 4 radii of the piece at least
   double floor_apart = 0;               ///< if positive, in the place of `floor` for pieces without a vertex in which
   std::array<Feature_id, 2> meeting{};  ///< these two meet at a small angle
-  double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex inherits
+  double relaxed = 0;                   ///< the relaxed insertion radius that a new vertex has at least
   double inherited = 0;                 ///< the insertion radius that it has at least
   bool is_at_wedge = false;             ///< the client's shortest edge is as short as a small dihedral angle makes it
   double size = 0;                      ///< that the client is over; 0: it is not
@@ -106,14 +106,28 @@ double inherited_radius(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
   return inherited;
 }
 
+/// What follows from a tetrahedron has for a relaxed radius at least: that of its shortest edge, whose ends that are not of the input have
+/// the smaller one of theirs, and its length if that is more.
+template <class Cell_handle>
+double relaxed_length(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners) {
+  double most = std::sqrt(ball.squared_shortest);
+  for_each_shortest_edge(ball, corners, [&](std::size_t i, std::size_t j) {
+    const auto radius_at = [&](std::size_t k) { return static_cast<double>(c->vertex(static_cast<int>(k))->relaxed_radius()); };
+    const double a = radius_at(i), b = radius_at(j);
+    most = std::max(most, a > 0 && b > 0 ? std::min(a, b) : std::max(a, b));  // of the input: 0
+  });
+  return most;
+}
+
 /// What keeps a tetrahedron's splits from going on for ever next to small angles: a split on its behalf may not make
 /// edges shorter than this there.
 ///
-/// Half its shortest edge, but between vertices on features that meet at a small angle the smaller of their insertion radii, where that is
-/// more: the edge is as short as the angle makes it, and splits could go on towards the place where they meet. (Theorem 5 in
-/// docs/theory.md asks for all of the edge; what that costs is said there.) Where that place is a vertex, pieces that do not touch it may be split down to half
-/// of the edge after all: away from the vertex its length is bounded from below. That costs as many points as insertion radii
-/// fit the edge more than once, so it is done up to a ratio of `most_points` only.
+/// Half its shortest edge, but no less than a part of its relaxed length, so that a chain of tetrahedra that each halve what the one before
+/// kept has an end (theorem 5 in docs/theory.md). Between vertices on features that meet at a small angle the smaller of their insertion
+/// radii, where that is more: the edge is as short as the angle makes it, and splits could go on towards the place where they meet. Where
+/// that place is a vertex, pieces that do not touch it may be split down to half of the edge after all: away from the vertex its length is
+/// bounded from below. That costs as many points as insertion radii fit the edge more than once, so it is done up to a ratio of
+/// `most_points` only, and the part above is half of an edge of that ratio.
 /// \param size the bound that the tetrahedron is over, if there is one: then edges of a part of that may be made, too
 template <class Cell_handle>
 Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetrahedron_points& corners, std::optional<double> size,
@@ -122,8 +136,9 @@ Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
   // Of a segment in the way of a circumcenter, which is at least so far from all vertices, the middle is half as far, and a point on a shell two thirds of
   // that: with 1/2, six of 83 parts kept edges of 2.1 to 3.8 times the size, with 1/4 one did, before large pieces were split anyway.
   constexpr double part_of_size = 0.25;
-  Split_guard guard{.floor = 0.5 * std::sqrt(ball.squared_shortest), .where = corners, .count = 4,
-                    .reach = 4 * std::sqrt(ball.squared_radius)};
+  const double relaxed_of_edge = relaxed_length(c, ball, corners);
+  const double half = std::max(0.5 * std::sqrt(ball.squared_shortest), relaxed_of_edge / (2 * most_points));
+  Split_guard guard{.floor = half, .where = corners, .count = 4, .reach = 4 * std::sqrt(ball.squared_radius), .relaxed = relaxed_of_edge};
   for_each_narrow_edge(c, ball, corners, [&](std::size_t i, std::size_t j, double radius) {
     guard.floor = std::max(guard.floor, radius);
     const Feature_id a = feature_of(c->vertex(static_cast<int>(i))), b = feature_of(c->vertex(static_cast<int>(j)));
@@ -132,10 +147,9 @@ Split_guard split_guard(Cell_handle c, const Tetrahedron_ball& ball, const Tetra
     const bool is_at_wedge = !acute.meet_at_vertices_only(a, b);
     guard.is_at_wedge |= is_at_wedge;
     const double relaxed = std::min(c->vertex(static_cast<int>(i))->relaxed_radius(), c->vertex(static_cast<int>(j))->relaxed_radius());
-    guard.relaxed = std::max(guard.relaxed, relaxed);
     if (is_at_wedge || relaxed * relaxed > most_points * most_points * ball.squared_shortest) return;
     guard.meeting = {a, b};
-    guard.floor_apart = 0.5 * std::sqrt(ball.squared_shortest);
+    guard.floor_apart = half;
   });
   if (size) {
     guard.size = *size;

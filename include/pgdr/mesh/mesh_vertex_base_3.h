@@ -39,7 +39,7 @@ class Mesh_vertex_base_3 : public Vb {
   float insertion_radius() const { return insertion_radius_; }
   void set_insertion_radius(double r) { insertion_radius_ = relaxed_radius_ = rounded_down(r); }
 
-  /// That of the first of its causes, where a vertex was let closer to others than its cause had been; else its own. At least its own.
+  /// That of its cause, or its own if that is larger: where vertices are let closer to others than their causes had been, it goes down no chain of these.
   float relaxed_radius() const { return relaxed_radius_; }
   void relax_radius(double r) { relaxed_radius_ = std::max(relaxed_radius_, rounded_down(r)); }
 
