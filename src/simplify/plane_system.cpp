@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
@@ -18,22 +19,27 @@ constexpr double plane_weight = 1e-6;
 /// What keeps the system regular where planes are nearly parallel (Levenberg, Marquardt): a step takes away all of an error but this part
 /// divided by the square of the angle between them.
 constexpr double damping = 1e-8;
+/// A step that leaves less of the error than this is followed by one with the same decomposition.
+constexpr double much_closer = 0.1;
 
 /// A plane through points, with coordinates in it that are at most 1.
 struct Frame {
-  Eigen::MatrixXd positions;  ///< one row per vertex: coordinates in the plane, and the distance from it
+  using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  Positions positions;  ///< one row per vertex: coordinates in the plane, and the distance from it
 
   Vec_3 normal;
 
   Frame(const Plane_system::Vertices& facet, const std::vector<Vec_3>& points) {
-    Eigen::MatrixXd p(facet.size(), 3);
+    Positions p(facet.size(), 3);
     for (std::size_t i = 0; i < facet.size(); ++i)
       for (int d = 0; d < 3; ++d) p(i, d) = points[facet[i]][d];
     p.rowwise() -= p.colwise().mean().eval();
     // Of the points themselves, not of their covariance, which would have half of the digits.
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(p, Eigen::ComputeThinV);
+    const Eigen::HouseholderQR<Positions> qr(p);
+    const Eigen::Matrix3d r = qr.matrixQR().topRows<3>().triangularView<Eigen::Upper>();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullV);
     const Eigen::Matrix3d axes = svd.matrixV();
-    positions = p * axes;
+    positions.noalias() = p * axes;
     for (int d = 0; d < 2; ++d) {
       const double size = positions.col(d).cwiseAbs().maxCoeff();
       if (size > 0) positions.col(d) /= size;
@@ -48,19 +54,6 @@ double Plane_system::bend(const Vertices& facet, const std::vector<Vec_3>& point
   return facet.size() > 3 ? Frame(facet, points).positions.col(2).cwiseAbs().maxCoeff() : 0;
 }
 
-void Plane_system::solve(std::vector<Vec_3>& points, const std::vector<bool>& is_on, int most_steps) const {
-  std::vector<Index> facets;
-  for (Index f = 0; f < facets_.size(); ++f)
-    if (is_on[f] && facets_[f].size() > 3) facets.push_back(f);
-  if (facets.empty()) return;
-  double last = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < most_steps; ++step) {
-    const double error = newton_step(points, facets);
-    if (error < enough_ || error > last / 2) return;
-    last = error;
-  }
-}
-
 /// Least squares with constraints: the smallest move x of vertices and y of planes with A x + B y = b. With the vertices eliminated, the
 /// multipliers l are the solution of
 ///
@@ -68,52 +61,91 @@ void Plane_system::solve(std::vector<Vec_3>& points, const std::vector<bool>& is
 ///     B^T               -plane_weight   y  =  0        and x = A^T l,
 ///
 /// which is quasidefinite: it has an L D L^T decomposition in any order of its rows (Vanderbei 1995).
-/// \return the largest error before the step
-double Plane_system::newton_step(std::vector<Vec_3>& points, const std::vector<Index>& facets) const {
+class Plane_system::Linearization {
+ public:
+  /// A and B are made of planes that fit the points of these facets.
+  bool make(const Plane_system& system, const std::vector<Index>& facets, const std::vector<Frame>& frames) {
+    std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
+    std::size_t rows = 0;
+    for (const Index f : facets) rows += system.facets_[f].size();
+    const Index unknowns = static_cast<Index>(rows + 3 * facets.size());
+    uses_.clear();
+    normals_.clear();
+    for (std::size_t k = 0; k < facets.size(); ++k) {
+      const Vertices& facet = system.facets_[facets[k]];
+      const Index plane = static_cast<Index>(rows + 3 * k);
+      for (Index d = 0; d < 3; ++d) entries.emplace_back(plane + d, plane + d, -plane_weight);
+      for (std::size_t i = 0; i < facet.size(); ++i) {
+        const Index row = static_cast<Index>(uses_.size());
+        entries.emplace_back(row, row, damping);
+        entries.emplace_back(plane, row, 1);
+        for (Index d = 0; d < 2; ++d) entries.emplace_back(plane + 1 + d, row, frames[k].positions(i, d));
+        Vec_3 normal = frames[k].normal;
+        for (int d = 0; d < 3; ++d)
+          if (system.fixed_[facet[i]][d]) normal[d] = 0;
+        uses_.push_back({facet[i], row, normal});
+      }
+      normals_.push_back(frames[k].normal);
+    }
+    std::ranges::stable_sort(uses_, {}, &Use::vertex);
+    for (std::size_t i = 0; i < uses_.size(); ++i)
+      for (std::size_t j = i; j < uses_.size() && uses_[j].vertex == uses_[i].vertex; ++j)
+        entries.emplace_back(uses_[j].row, uses_[i].row, dot(uses_[i].normal, uses_[j].normal));
+
+    Matrix matrix(unknowns, unknowns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    if (!is_analyzed_) ldlt_.analyzePattern(matrix);  // every matrix has its entries at the same places
+    is_analyzed_ = true;
+    ldlt_.factorize(matrix);
+    return ldlt_.info() == Eigen::Success;
+  }
+
+  /// Moves the points towards planes with these frames, which may be later ones.
+  void step(std::vector<Vec_3>& points, const std::vector<Frame>& frames) const {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(ldlt_.rows());
+    Eigen::Index row = 0;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      const double side = dot(normals_[k], frames[k].normal) < 0 ? -1 : 1;
+      for (Eigen::Index i = 0; i < frames[k].positions.rows(); ++i) right[row++] = -side * frames[k].positions(i, 2);
+    }
+    const Eigen::VectorXd multipliers = ldlt_.solve(right);
+    for (const Use& use : uses_) points[use.vertex] = points[use.vertex] + multipliers[use.row] * use.normal;
+  }
+
+ private:
+  using Matrix = Eigen::SparseMatrix<double>;
+
   struct Use {
     Index vertex, row;
     Vec_3 normal;  ///< without the axes along which the vertex may not move
   };
-  std::vector<Use> uses;
-  std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
-  std::size_t rows = 0;
-  for (const Index f : facets) rows += facets_[f].size();
-  const Index unknowns = static_cast<Index>(rows + 3 * facets.size());
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
 
-  double error = 0;
-  for (std::size_t k = 0; k < facets.size(); ++k) {
-    const Vertices& facet = facets_[facets[k]];
-    const Frame frame(facet, points);
-    error = std::max(error, frame.positions.col(2).cwiseAbs().maxCoeff());
-    const Index plane = static_cast<Index>(rows + 3 * k);
-    for (Index d = 0; d < 3; ++d) entries.emplace_back(plane + d, plane + d, -plane_weight);
-    for (std::size_t i = 0; i < facet.size(); ++i) {
-      const Index row = static_cast<Index>(uses.size());
-      right[row] = -frame.positions(i, 2);
-      entries.emplace_back(row, row, damping);
-      entries.emplace_back(plane, row, 1);
-      for (Index d = 0; d < 2; ++d) entries.emplace_back(plane + 1 + d, row, frame.positions(i, d));
-      Vec_3 normal = frame.normal;
-      for (int d = 0; d < 3; ++d)
-        if (fixed_[facet[i]][d]) normal[d] = 0;
-      uses.push_back({facet[i], row, normal});
+  std::vector<Use> uses_;
+  std::vector<Vec_3> normals_;  ///< of the facets
+  Eigen::SimplicialLDLT<Matrix> ldlt_;
+  bool is_analyzed_ = false;
+};
+
+void Plane_system::solve(std::vector<Vec_3>& points, const std::vector<Index>& facets, int most_steps) const {
+  Linearization linearization;
+  double last = std::numeric_limits<double>::infinity();
+  bool is_old = false;
+  for (int step = 0; step < most_steps; ++step) {
+    std::vector<Frame> frames;
+    double error = 0;
+    for (const Index f : facets) {
+      frames.emplace_back(facets_[f], points);
+      error = std::max(error, frames.back().positions.col(2).cwiseAbs().maxCoeff());
     }
+    if (error < enough_) return;
+    const bool is_last = !is_old && error > last / 2;
+    // Most of the time goes into decompositions, and where points move little beside the size of facets an old one is as good.
+    is_old = step > 0 && error < much_closer * last;
+    if (!is_old && !linearization.make(*this, facets, frames)) return;
+    linearization.step(points, frames);
+    if (is_last) return;
+    last = error;
   }
-  if (error < enough_) return error;
-
-  std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.vertex < b.vertex; });
-  for (std::size_t i = 0; i < uses.size(); ++i)
-    for (std::size_t j = i; j < uses.size() && uses[j].vertex == uses[i].vertex; ++j)
-      entries.emplace_back(uses[j].row, uses[i].row, dot(uses[i].normal, uses[j].normal));
-
-  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> decomposition(matrix);
-  if (decomposition.info() != Eigen::Success) return 0;
-  const Eigen::VectorXd multipliers = decomposition.solve(right);
-  for (const Use& use : uses) points[use.vertex] = points[use.vertex] + multipliers[use.row] * use.normal;
-  return error;
 }
 
 }  // namespace pgdr

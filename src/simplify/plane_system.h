@@ -23,15 +23,15 @@ class Plane_system {
   Plane_system(const std::vector<Vertices>& facets, const std::vector<Fixed_axes>& fixed, double enough)
       : facets_(facets), fixed_(fixed), enough_(enough) {}
 
-  /// Moves the points, as little as possible, until those of each facet with `is_on` are in a plane, no step gets any closer, or there were
-  /// as many.
-  void solve(std::vector<Vec_3>& points, const std::vector<bool>& is_on, int most_steps) const;
+  /// Moves the points of some facets, as little as possible, until those of each are in a plane, no step gets any closer, or there were
+  /// as many. Facets without a common vertex may be solved at once.
+  void solve(std::vector<Vec_3>& points, const std::vector<Index>& facets, int most_steps) const;
 
   /// Largest distance of the points from the plane that fits them best (least squares).
   static double bend(const Vertices& facet, const std::vector<Vec_3>& points);
 
  private:
-  double newton_step(std::vector<Vec_3>& points, const std::vector<Index>& facets) const;
+  class Linearization;
 
   const std::vector<Vertices>& facets_;
   const std::vector<Fixed_axes>& fixed_;

@@ -9,9 +9,11 @@
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/domain/vec_3.h>
+#include <pgdr/parallel/thread_arena.h>
 
 #include "catch.h"
 #include "domain/shapes.h"
+#include "thread_counts.h"
 
 using namespace pgdr;
 using namespace pgdr_test;
@@ -64,6 +66,26 @@ TEST_CASE("facets of a file in single precision become plane, by moves of that s
   CHECK(done.largest_change > 1e-9);
   CHECK(done.largest_change <= farthest_move(rounded, plc));
   CHECK(farthest_move(rounded, plc) < 3e-7);  // a few ulps of numbers up to 2
+}
+
+TEST_CASE("bodies apart become plane at once, alike for any number of threads") {
+  Plc bodies;
+  for (int i = 0; i < 12; ++i) {
+    Plc body = triangulated(tilted(cylinder(static_cast<Index>(8 + i))));
+    const Index first = static_cast<Index>(bodies.vertices.size());
+    for (const auto& p : body.vertices) bodies.vertices.emplace_back(p.x() + 5.1 * i, p.y() - 3.3 * i, p.z());
+    for (auto& facet : body.facets) {
+      for (auto& polygon : facet.polygons)
+        for (Index& v : polygon) v += first;
+      bodies.facets.push_back(facet);
+    }
+  }
+  const Plc rounded = in_single_precision(bodies);
+  const std::size_t facets = facets_within(rounded, tolerance);
+  REQUIRE(facets_within(rounded, rounding) > facets);
+  const Plc plane = with_threads(1, [&] { return planarize(rounded, tolerance); });
+  CHECK(facets_within(plane, rounding) == facets);
+  for (const unsigned threads : thread_counts()) CHECK(with_threads(threads, [&] { return planarize(rounded, tolerance); }).vertices == plane.vertices);
 }
 
 TEST_CASE("what is in an axis-aligned plane stays there") {
