@@ -527,9 +527,8 @@ class Feature_refiner_3 {
       return cavity_.abandon();
     const std::vector<Piece_id> way = images_.in_the_way(i, p, near, features_, at);
     if (!way.empty()) return make_way(i, way);
-    if (const Vertex_handle v = insert_on_facet(at, p, i.at); v != Vertex_handle()) {
-      v->set_insertion_radius(std::max<double>(v->insertion_radius(), radius));
-      v->relax_radius(i.by->relaxed_radius());
+    const Split_guard guard{.relaxed = i.by->relaxed_radius(), .inherited = radius};
+    if (const Vertex_handle v = insert_on_facet(at, p, i.at, guard); v != Vertex_handle()) {
       images_.add_of(v, made_, i.is_usual);
     } else if (stars_[0].is_foreign()) {
       hand_on(i);
