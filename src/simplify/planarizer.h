@@ -51,7 +51,7 @@ class Planarizer {
 
   /// Where the points should be.
   std::vector<Vec_3> solution() {
-    // Who moves too far is seen after a step or two. With the tolerance of noise there are few rounds, and the result stays what it always was.
+    // Who moves too far is seen after a step or two. With the tolerance of noise there are few rounds.
     for (int round = 0; is_wide(domain_.tolerance, domain_.diagonal) && round < careful_rounds; ++round) {
       solve(rough_, rough_steps);
       if (!give_up_what_is_far(rough_, true, false)) break;
@@ -154,7 +154,7 @@ class Planarizer {
   struct Solution {
     std::vector<Group> groups;
     std::vector<Vec_3> points;
-    std::vector<double> bends;  ///< of the facets in the groups
+    std::vector<double> bends;  ///< of the facets in the groups, if it is not a rough one
   };
 
   /// All that are on, in order.
@@ -195,6 +195,7 @@ class Planarizer {
     solution.bends.resize(facets_.size());
     parallel_for(0, changed.size(), [&](std::size_t i) {
       system.solve(solution.points, changed[i], steps);
+      if (steps == rough_steps) return;
       for (const Index f : changed[i]) solution.bends[f] = Plane_system::bend(facets_[f], solution.points);
     });
   }
