@@ -58,7 +58,31 @@ Plc moved(const Plc& plc, const Domain& domain, const std::vector<Vec_3>& points
   return result;
 }
 
-/// `plc`, which `domain` was made from, without some of the domain's vertices inside its facets: those facets become polygons.
+/// Plane facets as triangles, which stay plane when their vertices are moved apart; those with segments inside stay as they are.
+std::vector<Plc_facet<Default_kernel>> as_triangles(const Plc& plc, std::vector<Plc_facet<Default_kernel>> facets, double coplanar_tolerance) {
+  Plc alone;
+  alone.vertices = plc.vertices;
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    alone.facets.push_back(facets[i]);
+    alone.facets.back().group = static_cast<Index>(i + 1);
+  }
+  const Domain domain = make_domain_3(alone, coplanar_tolerance, false);
+  std::vector<Plc_facet<Default_kernel>> result;
+  for (const auto& facet : domain.facets) {
+    const auto& from = facets[facet.input_facets[0]];
+    if (std::ranges::any_of(from.polygons, [](const auto& polygon) { return polygon.size() == 2; })) {
+      result.push_back(from);
+      continue;
+    }
+    for (const auto& t : facet.triangles) {
+      result.push_back(from);
+      result.back().polygons = {{domain.input_vertex[t[0]], domain.input_vertex[t[1]], domain.input_vertex[t[2]]}};
+    }
+  }
+  return result;
+}
+
+/// `plc`, which `domain` was made from, without some of the domain's vertices inside its plane facets: those get other triangles.
 Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goes) {
   std::vector<Vec_3> points;
   for (const auto& p : domain.vertices) points.push_back(to_vec(p));
@@ -78,6 +102,7 @@ Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goe
   for (std::size_t i = 0; i < facet_goes.size(); ++i)
     if (!facet_goes[i]) std::swap(plc.facets[left++], plc.facets[i]);
   plc.facets.resize(left);
+  new_facets = as_triangles(plc, std::move(new_facets), domain.tolerance / domain.diagonal);
   plc.facets.insert(plc.facets.end(), new_facets.begin(), new_facets.end());
 
   std::vector<bool> vertex_goes(plc.vertices.size(), false);
@@ -89,7 +114,7 @@ Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goe
 
 /// What is too close to the rest of its facet.
 struct Low_corners {
-  std::vector<bool> inside;    ///< vertices that no segment ends at: no feature, they may go
+  std::vector<bool> inside;   ///< vertices that no segment ends at, of plane facets: no feature, they may go
   std::vector<Index> facets;  ///< input facets of those with others, ascending
   bool some_inside() const { return std::ranges::find(inside, true) != inside.end(); }
 };
@@ -100,10 +125,15 @@ Low_corners low_corners(const Domain& domain, const Plc& input, double height) {
   Low_corners low{std::vector<bool>(domain.vertices.size(), true), {}};
   for (const auto& s : domain.segments)
     for (const Index v : s.vertices) low.inside[v] = false;
+  std::vector<Vec_3> points;
+  for (const auto& p : domain.vertices) points.push_back(to_vec(p));
+  for (const auto& f : domain.facets)
+    if (!simplify_detail::is_plane(f.vertices, points, domain.diagonal))
+      for (const Index v : f.vertices) low.inside[v] = false;
   for (Index v = 0; v < domain.vertex_markers.size(); ++v)
     if (domain.vertex_markers[v] != 0) low.inside[v] = false;
   std::vector<bool> is_low(domain.vertices.size(), false);
-  const auto now = [&](Index v) { return to_vec(domain.vertices[v]); };
+  const auto now = [&](Index v) { return points[v]; };
   const auto before = [&](Index v) { return to_vec(input.vertices[domain.input_vertex[v]]); };
   for (const auto& f : domain.facets)
     for (const auto& t : f.triangles)

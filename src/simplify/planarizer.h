@@ -24,6 +24,13 @@ constexpr double noise = 1e-6;
 /// Whether more than noise is made plane.
 inline bool is_wide(double tolerance, double diagonal) { return tolerance > 2 * noise * diagonal; }
 
+/// In units of the bounding box's diagonal: a facet that is bent by less is as plane as the points that refinement puts on it.
+constexpr double bent = 1e-13;
+
+inline bool is_plane(const std::vector<Index>& facet, const std::vector<Vec_3>& points, double diagonal) {
+  return Plane_system::bend(facet, points) <= bent * diagonal;
+}
+
 /// Finds out which facets of a domain can be made plane, and where its vertices are then.
 class Planarizer {
  public:
@@ -79,9 +86,8 @@ class Planarizer {
   Planarization report(const std::vector<Vec_3>& points) const {
     Planarization done;
     for (std::size_t f = 0; f < facets_.size(); ++f) {
-      const double bend = Plane_system::bend(facets_[f], points);
-      const bool is_bent = bend > bent * domain_.diagonal;
-      const bool was_bent = Plane_system::bend(facets_[f], input_) > bent * domain_.diagonal;
+      const bool is_bent = !is_plane(facets_[f], points, domain_.diagonal);
+      const bool was_bent = !is_plane(facets_[f], input_, domain_.diagonal);
       done.bent_facets += is_bent;
       done.flattened_facets += was_bent && !is_bent;
     }
@@ -93,8 +99,6 @@ class Planarizer {
   }
 
  private:
-  /// In units of the bounding box's diagonal: a facet that is bent by less is as plane as the points that refinement puts on it.
-  static constexpr double bent = 1e-13;
   /// What a solution may leave; above that the facet has none.
   static constexpr double unsolved = 1e-10;
   /// How much farther vertices may move along their facets than away from them.
@@ -117,7 +121,7 @@ class Planarizer {
     for (Index f = 0; f < facets_.size(); ++f) {
       if (facets_[f].size() < 4) continue;
       for (const Index v : facets_[f]) facets_of[v].push_back(f);
-      if (Plane_system::bend(facets_[f], points_) > bent * domain_.diagonal) choose(f);
+      if (!is_plane(facets_[f], points_, domain_.diagonal)) choose(f);
     }
     while (!next.empty()) {
       const Index f = next.back();

@@ -27,7 +27,8 @@ namespace simplify_detail {
 /// How far the boundary is from the input is known by a map of the input onto it, piecewise linear, which no step leaves without a bound:
 /// at a point with barycentric coordinates l_i it has moved by at most sum l_i D_i + F, with D_i of the corners (`change_`) and F of the
 /// triangle (`Triangle::change`). A collapse of b into a moves points by l_b |ab| more, so that D_a = max(D_a, D_b + |ab|) will do; removing
-/// a needle moves them by at most some h, so that F + h + max D_i - min D_i will do.
+/// a needle abv moves a point x of ab to some y, by h, and all else by less. F + h will do if the sum is no less at y than it was at x, since
+/// it is linear in between: D_v becomes what it is at x, if that is more, and F takes the rest.
 class Simplifier {
  public:
   using Triangle = Triangle_complex::Triangle;
@@ -163,14 +164,10 @@ class Simplifier {
     if (std::ranges::binary_search(fixed_.edges, domain_detail::sorted_pair(a, b))) return false;
     removed_ = complex_.at_edge(a, b);
     made_.clear();
-    double most = 0, least = tolerance_, added = 0;
+    double added = 0;
     for (const Index t : removed_) {
       const Triangle& old = complex_.triangles()[t];
       added = std::max(added, old.change);
-      for (const Index w : old.corners) {
-        most = std::max(most, change_[w]);
-        least = std::min(least, change_[w]);
-      }
       if (t == needle) continue;
       const Index w = third_corner(old.corners, a, b);
       if (complex_.has_edge(v, w)) return false;
@@ -182,26 +179,43 @@ class Simplifier {
     }
     // At the end of a sheet nothing takes its place.
     if (made_.empty() && (complex_.at_edge(a, v).size() < 2 || complex_.at_edge(b, v).size() < 2)) return false;
-    const double own = removed_.size() == 2 ? flip_distance(a, b, v, third_corner(made_[0].corners, b, v)) : complex_.height(corners);
-    for (Triangle& m : made_) m.change = added + own + most - least;
-    return is_within_tolerance(v) && replace(false);
+    const Index w = removed_.size() == 2 ? third_corner(made_[0].corners, b, v) : v;
+    const Move move = w != v ? flip(a, b, v, w) : onto_vertex(a, b, v);
+    const double before = change_[v], at_source = (1 - move.source) * change_[a] + move.source * change_[b];
+    change_[v] = std::max(before, at_source);
+    const double at_target = (1 - move.target) * change_[v] + move.target * change_[w];
+    for (Triangle& m : made_) m.change = added + move.distance + std::max(0.0, at_source - at_target);
+    if (is_within_tolerance(v) && replace(false)) return true;
+    change_[v] = before;
+    return false;
   }
 
   static Index third_corner(const Corners& c, Index a, Index b) {
     return *std::ranges::find_if(c, [&](Index w) { return w != a && w != b; });
   }
 
-  /// How far two triangles abv, abw are from vwa, vwb at most. Where the lines of the edges are closest within both, these points move onto each
-  /// other, and all else less; else ab moves to v.
-  double flip_distance(Index a, Index b, Index v, Index w) const {
+  /// Of a point of an edge ab to one of an edge vw; both as parts of their edges, from a and from v.
+  struct Move {
+    double distance, source, target;
+  };
+
+  /// From triangles abv, abw to vwa, vwb. Where the lines of the edges are closest within both, these points move onto each other, and all else less;
+  /// else ab moves to v.
+  Move flip(Index a, Index b, Index v, Index w) const {
     const Vec_3 &p = complex_.point(a), &q = complex_.point(v);
     const Vec_3 d = complex_.point(b) - p, e = complex_.point(w) - q, n = cross(d, e), between = q - p;
     const double nn = squared_length(n);
     if (nn > 0) {
       const double s = dot(cross(between, e), n) / nn, t = dot(cross(between, d), n) / nn;
-      if (s >= 0 && s <= 1 && t >= 0 && t <= 1) return std::abs(dot(between, n)) / std::sqrt(nn);
+      if (s >= 0 && s <= 1 && t >= 0 && t <= 1) return {std::abs(dot(between, n)) / std::sqrt(nn), s, t};
     }
-    return complex_.height({a, b, v});
+    return onto_vertex(a, b, v);
+  }
+
+  /// What of ab is next to v, onto that.
+  Move onto_vertex(Index a, Index b, Index v) const {
+    const Vec_3 &p = complex_.point(a), d = complex_.point(b) - p;
+    return {complex_.height({a, b, v}), std::clamp(dot(complex_.point(v) - p, d) / squared_length(d), 0.0, 1.0), 0};
   }
 
   double change_of(const Triangle& t) const {

@@ -13,6 +13,7 @@
 
 #include "catch.h"
 #include "domain/shapes.h"
+#include "seeded_random.h"
 #include "thread_counts.h"
 
 using namespace pgdr;
@@ -148,6 +149,53 @@ TEST_CASE("a needle that stood upright does not fall onto the edge it stands on"
     CHECK(flat.vertices.size() == 8);
     CHECK(facets_within(flat, rounding) == 6);
   }
+}
+
+TEST_CASE("what stays bent stays triangles") {
+  // A box with a dome for a top; each of its triangles has a vertex next to an edge.
+  constexpr Index n = 8;
+  constexpr double wide = 1e-3, radius = 60;
+  Seeded_random random(1);
+  Plc plc;
+  const auto at = [](Index i, Index j) { return i * (n + 1) + j; };
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j <= n; ++j) {
+      const double x = i - n / 2.0, y = j - n / 2.0;
+      plc.vertices.emplace_back(x, y, -(x * x + y * y) / (2 * radius));
+    }
+  std::vector<std::vector<Index>> sides(4);
+  const auto top = static_cast<Index>(plc.vertices.size());
+  for (const Index i : {Index{0}, n})
+    for (const Index j : {Index{0}, n}) plc.vertices.emplace_back(i - n / 2.0, j - n / 2.0, -5);
+  for (Index i = 0; i <= n; ++i) {
+    sides[0].push_back(at(i, 0));
+    sides[1].push_back(at(i, n));
+    sides[2].push_back(at(0, i));
+    sides[3].push_back(at(n, i));
+  }
+  const std::vector<std::vector<Index>> feet{{2, 0}, {3, 1}, {1, 0}, {3, 2}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (const Index v : feet[k]) sides[k].push_back(top + v);
+    plc.facets.push_back({{sides[k]}, {}, 0});
+  }
+  plc.facets.push_back({{{top, top + 1, top + 3, top + 2}}, {}, 0});
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j)
+      for (const std::vector<Index>& t : {std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, {at(i, j), at(i + 1, j + 1), at(i, j + 1)}}) {
+        const Vec_3 a = to_vec(plc.vertices[t[0]]), b = to_vec(plc.vertices[t[1]]), c = to_vec(plc.vertices[t[2]]);
+        const Vec_3 p = a + random.between(0.3, 0.7) * (b - a) + 1e-5 * (c - a);
+        const auto v = static_cast<Index>(plc.vertices.size());
+        plc.vertices.emplace_back(p.x, p.y, p.z);
+        for (std::size_t k = 0; k < 3; ++k) plc.facets.push_back({{{t[k], t[(k + 1) % 3], v}}, {}, 0});
+      }
+  REQUIRE(meets_nowhere(plc));
+  Planarization done;
+  const Plc flat = planarize(plc, wide, false, &done);
+  CHECK(done.bent_facets > 0);
+  CHECK(done.flattened_facets > 0);
+  CHECK(std::ranges::count_if(flat.facets, [](const Facet& f) { return f.polygons[0].size() != 3; }) == 5);  // sides and bottom
+  CHECK(meets_nowhere(flat));
+  for (const double within : {wide, tolerance}) CHECK(meets_nowhere(planarize(flat, within)));
 }
 
 TEST_CASE("what was made plane together is what is fused") {
