@@ -58,14 +58,12 @@ Plc moved(const Plc& plc, const Domain& domain, const std::vector<Vec_3>& points
   return result;
 }
 
-/// Plane facets as triangles, which stay plane when their vertices are moved apart; those with segments inside stay as they are.
-std::vector<Plc_facet<Default_kernel>> as_triangles(const Plc& plc, std::vector<Plc_facet<Default_kernel>> facets, double coplanar_tolerance) {
+/// Plane facets as triangles, which stay plane when their vertices are moved apart, and have no holes any more; those with segments inside stay as they are.
+std::vector<Plc_facet<Default_kernel>> as_triangles(const Plc& plc, const std::vector<Plc_facet<Default_kernel>>& facets, double coplanar_tolerance) {
   Plc alone;
   alone.vertices = plc.vertices;
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    alone.facets.push_back(facets[i]);
-    alone.facets.back().group = static_cast<Index>(i + 1);
-  }
+  alone.facets = facets;
+  for (std::size_t i = 0; i < facets.size(); ++i) alone.facets[i].group = static_cast<Index>(i + 1);
   const Domain domain = make_domain_3(alone, coplanar_tolerance, false);
   std::vector<Plc_facet<Default_kernel>> result;
   for (const auto& facet : domain.facets) {
@@ -74,10 +72,8 @@ std::vector<Plc_facet<Default_kernel>> as_triangles(const Plc& plc, std::vector<
       result.push_back(from);
       continue;
     }
-    for (const auto& t : facet.triangles) {
-      result.push_back(from);
-      result.back().polygons = {{domain.input_vertex[t[0]], domain.input_vertex[t[1]], domain.input_vertex[t[2]]}};
-    }
+    for (const auto& t : facet.triangles)
+      result.push_back({{{domain.input_vertex[t[0]], domain.input_vertex[t[1]], domain.input_vertex[t[2]]}}, {}, from.marker, from.group});
   }
   return result;
 }
@@ -102,7 +98,7 @@ Plc without_vertices(Plc plc, const Domain& domain, const std::vector<bool>& goe
   for (std::size_t i = 0; i < facet_goes.size(); ++i)
     if (!facet_goes[i]) std::swap(plc.facets[left++], plc.facets[i]);
   plc.facets.resize(left);
-  new_facets = as_triangles(plc, std::move(new_facets), domain.tolerance / domain.diagonal);
+  new_facets = as_triangles(plc, new_facets, domain.tolerance / domain.diagonal);
   plc.facets.insert(plc.facets.end(), new_facets.begin(), new_facets.end());
 
   std::vector<bool> vertex_goes(plc.vertices.size(), false);
