@@ -162,19 +162,6 @@ class Feature_refiner_3 {
     return split_subsegment_at(slot, split_points_.of_subsegment(slot), reason, guard, always);
   }
 
-  /// Where a subsegment may be split: at a share of its length, but from an acute corner on at its shell only.
-  Vec_3 point_on_subsegment(std::uint32_t slot, double share) const {
-    const auto& ends = complex_.subsegment(slot).vertices;
-    if (split_points_.is_acute(ends[0]) || split_points_.is_acute(ends[1])) return split_points_.of_subsegment(slot);
-    return (1 - share) * position(ends[0]) + share * position(ends[1]);
-  }
-  /// Where a subfacet may be split: at a share of the way from its circumcenter to its centroid.
-  Vec_3 point_on_subfacet(std::uint32_t slot, double share) const {
-    const auto& t = complex_.subfacet(slot);
-    const Vec_3 a = position(t.vertices[0]), b = position(t.vertices[1]), c = position(t.vertices[2]);
-    return complex_.plane(t.facet).project((1 - share) * triangle_circumcenter(a, b, c) + (share / 3) * (a + b + c));
-  }
-
   /// Puts a point on a piece at m where that deletes no piece but those that it replaces, and `is_good(cavity, at)`. What it
   /// encroaches stays so.
   template <class Good>

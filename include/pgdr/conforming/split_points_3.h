@@ -46,6 +46,20 @@ class Split_points_3 {
     return complex_.plane(t.facet).project(m);
   }
 
+  /// Where a subsegment may be split for another reason: at a share of its length, but from an acute corner on at its shell only.
+  Vec_3 on_subsegment(std::uint32_t slot, double share) const {
+    const auto& ends = complex_.subsegment(slot).vertices;
+    if (is_acute(ends[0]) || is_acute(ends[1])) return of_subsegment(slot);
+    return (1 - share) * position(ends[0]) + share * position(ends[1]);
+  }
+
+  /// The same of a subfacet: at a share of the way from its circumcenter to its centroid.
+  Vec_3 on_subfacet(std::uint32_t slot, double share) const {
+    const auto& t = complex_.subfacet(slot);
+    const Vec_3 corners = position(t.vertices[0]) + position(t.vertices[1]) + position(t.vertices[2]);
+    return complex_.plane(t.facet).project((1 - share) * circumcenter(slot) + (share / 3) * corners);
+  }
+
   /// The midpoint of the longest edge of a subfacet, on its facet's plane, and the subsegment that this edge is, or none.
   std::pair<Vec_3, std::uint32_t> on_longest_edge(std::uint32_t slot) const {
     const auto& t = complex_.subfacet(slot);

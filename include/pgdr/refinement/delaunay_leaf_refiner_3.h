@@ -249,19 +249,17 @@ class Delaunay_leaf_refiner_3 {
     return result;
   }
 
-  /// Puts a point on a piece of a feature at a share of its length, or of the way from circumcenter to centroid, as
-  /// `Feature_refiner_3::put_on_piece`, and refines what is missing or poor after that. Returns how many points were inserted. \pre as `split_piece`
+  /// Puts a point on a piece of a feature, as `Feature_refiner_3::put_on_piece`, and refines what is missing or poor after that. Returns how
+  /// many points were inserted. \pre as `split_piece`
   template <class Good>
-  std::size_t put_on_piece(Worker& w, const Piece_id& piece, bool is_subsegment, double share, const Good& is_good) {
+  std::size_t put_on_piece(Worker& w, const Piece_id& piece, bool is_subsegment, const Vec_3& at, const Good& is_good) {
     if (is_subsegment ? !complex_.is_live_subsegment(piece) : !complex_.is_live_subfacet(piece)) return 0;
     Worklist list;
     const Leaf_task task;
     bool is_put;
     {
       const Session s(tr_, w, task, list);
-      Features& features = w.features;
-      const Vec_3 m = is_subsegment ? features.point_on_subsegment(piece.slot, share) : features.point_on_subfacet(piece.slot, share);
-      is_put = features.put_on_piece(piece.slot, is_subsegment, m, is_good);
+      is_put = w.features.put_on_piece(piece.slot, is_subsegment, at, is_good);
     }
     return is_put ? 1 + drain(w, task, list).inserted : 0;
   }

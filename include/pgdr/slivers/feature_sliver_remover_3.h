@@ -10,8 +10,11 @@
 #include <memory>
 #include <vector>
 
+#include <CGAL/Triangulation_utils_3.h>
+
 #include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/split_points_3.h>
 #include <pgdr/domain/feature_id.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/slivers/sliver_3.h>
@@ -28,27 +31,29 @@ namespace pgdr {
 /// Next to tetrahedra that were given up, 2. and 3. only as long as there is a budget: where input angles are small, one point asks for more, up to
 /// hundreds.
 ///
-/// In the wedge between facets that meet at a small dihedral angle tetrahedra are as flat as it is, and stay.
+/// In the wedge between facets that meet at a small dihedral angle tetrahedra are as flat as it is, and stay. Those that are flatter than any
+/// wedge do not, and have a budget of their own: there are few, and no solver can use a mesh with one.
 /// \pre no other thread works
 template <class Tr, class Criteria, class Engine>
 class Feature_sliver_remover_3 {
  public:
   using Complex = Constraint_complex_3<Tr>;
   using Cell_handle = typename Tr::Cell_handle;
+  using Vertex_handle = typename Tr::Vertex_handle;
   using Sliver = Sliver_3<Tr>;
 
   /// `wanted`: the cosine of the angle below which a tetrahedron is a sliver. With `most_vertices` in the triangulation nothing is begun.
   Feature_sliver_remover_3(const Tr& tr, const Complex& complex, const Tetrahedron_judge<Criteria>& judge, double wanted, Engine& engine,
                            std::size_t most_vertices, const std::atomic<bool>* cancel)
-      : tr_(tr), complex_(complex), judge_(judge), wanted_(wanted), engine_(engine), worker_(engine.make_worker()),
-        budget_(static_cast<std::size_t>(budget_share * static_cast<double>(tr.number_of_vertices()))), most_vertices_(most_vertices), cancel_(cancel) {}
+      : tr_(tr), complex_(complex), judge_(judge), wanted_(wanted), engine_(engine), split_points_(complex, engine.acute()), worker_(engine.make_worker()),
+        budget_(least_budget + static_cast<std::size_t>(budget_share * static_cast<double>(tr.number_of_vertices()))), most_vertices_(most_vertices), cancel_(cancel) {}
 
   /// Tries to remove slivers; returns how many points were inserted. All by 1. and 2. first, which cost less.
   std::size_t remove(const std::vector<Sliver>& slivers) {
     std::size_t inserted = 0;
     for (const bool is_split : {false, true})
       for (const Sliver& s : slivers)
-        if (s.is_live() && !is_in_wedge(s.cell) && !must_stop()) inserted += is_split ? split(s.cell) : put_point(s);
+        if (s.is_live() && (is_flat(s) || !is_in_wedge(s.cell)) && !must_stop()) inserted += is_split ? split(s) : put_point(s);
     return inserted;
   }
 
@@ -61,11 +66,12 @@ class Feature_sliver_remover_3 {
   // Of the vertices. With 1, 1.5, 2 and 3 %, the median of 18 models has 1.7, 2.0, 3.1 and 3.5 % more tetrahedra than without removal; below 5
   // degrees are then, of a04 152, 180, 180, 197, of a07 37, 25, 12, 0, of a11 4, 0, 0, 0, of a12 62, 56, 48, 49.
   static constexpr double budget_share = 0.015;
+  static constexpr std::size_t least_budget = 16;  ///< a mesh of fifty vertices may have one flat tetrahedron, too
 
   struct Place {
     Piece_id piece;
     bool is_subsegment = false;
-    double share = 0;
+    Vec_3 at;
   };
 
   /// How good a place is: largest cosines of dihedral angles, or `refused`.
@@ -78,43 +84,68 @@ class Feature_sliver_remover_3 {
   }
 
   std::size_t put_point(const Sliver& s) {
-    list_places(s.cell);
+    list_places(s);
     Value best{s.cosine, s.cosine};
     const Place *strict = nullptr, *relaxed = nullptr;
     for (const Place& place : places_) {
-      engine_.put_on_piece(*worker_, place.piece, place.is_subsegment, place.share, [&](const Cavity_3<Tr>& cavity, const Vec_3& at) {
-        const Value value = value_of(cavity, at, best);
+      engine_.put_on_piece(*worker_, place.piece, place.is_subsegment, place.at, [&](const Cavity_3<Tr>& cavity, const Vec_3& at) {
+        if (std::ranges::find(cavity.cells(), s.cell) == cavity.cells().end()) return false;
+        const double ratio2 = std::max(most_ratio * most_ratio, is_flat(s) ? squared_ratio_of_poor(cavity) : 0);
+        const Value value = value_of(cavity, at, best, ratio2);
         if (value.strict < best.strict) best.strict = value.strict, strict = &place;
         if (value.relaxed < best.relaxed) best.relaxed = value.relaxed, relaxed = &place;
         return false;
       });
       if (best.strict <= wanted_) break;
     }
-    const Place* const at = strict ? strict : relaxed;
-    if (!at) return 0;
-    return within_budget(!strict && is_next_to_poor(s.cell), [&] {
+    const Place* const chosen = strict ? strict : relaxed;
+    if (!chosen) return 0;
+    return within_budget(s, !strict, [&] {
       const auto always = [](const Cavity_3<Tr>&, const Vec_3&) { return true; };
-      return engine_.put_on_piece(*worker_, at->piece, at->is_subsegment, at->share, always);
+      return engine_.put_on_piece(*worker_, chosen->piece, chosen->is_subsegment, chosen->at, always);
     });
   }
 
-  /// A few on each subsegment and subfacet of a tetrahedron.
-  void list_places(Cell_handle c) {
+  /// A few on each subsegment and subfacet of a tetrahedron, or else on those subfacets that have an edge of it: cocircular vertices of two
+  /// walls of a slot.
+  void list_places(const Sliver& s) {
+    const Cell_handle c = s.cell;
     places_.clear();
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j) {
         if (!(c->subsegment_edges() & edge_bit(i, j))) continue;
-        const std::uint32_t s = complex_.find_subsegment(c->vertex(i), c->vertex(j));
-        if (s == Complex::none) continue;
-        for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) places_.push_back({complex_.subsegment_id(s), true, share});
+        const std::uint32_t at = complex_.find_subsegment(c->vertex(i), c->vertex(j));
+        if (at == Complex::none) continue;
+        for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) places_.push_back({complex_.subsegment_id(at), true, split_points_.on_subsegment(at, share)});
       }
     for (int i = 0; i < 4; ++i)
       if (c->subfacet(i) != Complex::none)
-        for (const double share : {0.0, 0.5, 1.0}) places_.push_back({complex_.subfacet_id(c->subfacet(i)), false, share});
+        list_places_on(c->subfacet(i));
+    if (!places_.empty() && !is_flat(s)) return;
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        if (c->vertex(i)->in_dimension() < 3 && c->vertex(j)->in_dimension() < 3) list_places_at_edge(c, i, j);
   }
 
-  /// Of a point with this cavity; as far as it may be below a limit.
-  Value value_of(const Cavity_3<Tr>& cavity, const Vec_3& at, const Value& limit) const {
+  void list_places_at_edge(Cell_handle c, int i, int j) {
+    auto d = tr_.tds().incident_cells(c, i, j);
+    const Vertex_handle v = c->vertex(i), w = c->vertex(j);
+    do {
+      // Of the two facets of a cell at the edge, the one that the next cell around does not have.
+      const int k = CGAL::Triangulation_utils_3::next_around_edge(d->index(v), d->index(w));
+      const std::uint32_t t = d->subfacet(k);
+      if (t == Complex::none) continue;
+      places_.push_back({complex_.subfacet_id(t), false, complex_.plane(complex_.subfacet(t).facet).project(0.5 * (position(v) + position(w)))});
+      list_places_on(t);
+    } while (++d != tr_.tds().incident_cells(c, i, j));
+  }
+
+  void list_places_on(std::uint32_t subfacet) {
+    for (const double share : {0.0, 0.5, 1.0}) places_.push_back({complex_.subfacet_id(subfacet), false, split_points_.on_subfacet(subfacet, share)});
+  }
+
+  /// Of a point with this cavity; as far as it may be below a limit. `ratio2`: what tetrahedra that are refined later have at most, squared
+  Value value_of(const Cavity_3<Tr>& cavity, const Vec_3& at, const Value& limit, double ratio2) const {
     Value value{-1, -1};
     int poor = 0;
     for (const auto& [c, i] : cavity.boundary()) {
@@ -129,25 +160,44 @@ class Feature_sliver_remover_3 {
       value.strict = std::max(value.strict, cosine);
       if (const Tetrahedron_ball ball = frame.ball(); judge_.refuses(ball, c->subdomain())) {
         value.strict = refused;
-        if (++poor > most_poor || ball.squared_radius > most_ratio * most_ratio * ball.squared_shortest) value.relaxed = refused;
+        if (++poor > most_poor || ball.squared_radius > ratio2 * ball.squared_shortest) value.relaxed = refused;
       }
       if (value.strict >= limit.strict && value.relaxed >= limit.relaxed) break;
     }
     return value;
   }
 
-  std::size_t split(Cell_handle c) {
-    return within_budget(is_next_to_poor(c), [&] {
-      const auto cause = sliver_cause(complex_, c);
+  /// The largest radius-edge ratio of those that were given up and go, squared.
+  static double squared_ratio_of_poor(const Cavity_3<Tr>& cavity) {
+    double largest = 0;
+    for (const Cell_handle d : cavity.cells())
+      if (d->state() == Cell_state::exempt) {
+        const Tetrahedron_ball ball = tetrahedron_ball(tetrahedron_points(d));
+        largest = std::max(largest, ball.squared_radius / ball.squared_shortest);
+      }
+    return largest;
+  }
+
+  std::size_t split(const Sliver& s) {
+    return within_budget(s, true, [&] {
+      const auto cause = sliver_cause(complex_, s.cell);
       return cause ? engine_.split_piece(*worker_, cause->piece, cause->is_subsegment, cause->guard, cancel_).inserted : 0;
     });
   }
 
+  /// As only cocircular vertices make it, of which images next to small angles are many: no angle of the input is as small.
+  static bool is_flat(const Sliver& s) {
+    constexpr double flattest = 1 - 1.5e-12;  // the cosine of 1e-4 degrees
+    return s.cosine > flattest;
+  }
+
   /// What `insert` inserts, if there is a budget left or it does not count.
-  std::size_t within_budget(bool counts, const auto& insert) {
-    if (counts && spent_ >= budget_) return 0;
+  std::size_t within_budget(const Sliver& s, bool may_count, const auto& insert) {
+    const bool counts = may_count && is_next_to_poor(s.cell);
+    std::size_t& spent = is_flat(s) ? spent_on_flat_ : spent_;
+    if (counts && spent >= budget_) return 0;
     const std::size_t inserted = insert();
-    if (counts) spent_ += inserted;
+    if (counts) spent += inserted;
     return inserted;
   }
 
@@ -178,8 +228,9 @@ class Feature_sliver_remover_3 {
   Tetrahedron_judge<Criteria> judge_;
   double wanted_;
   Engine& engine_;
+  Split_points_3<Tr> split_points_;
   std::unique_ptr<typename Engine::Worker> worker_;
-  std::size_t budget_, spent_ = 0;
+  std::size_t budget_, spent_ = 0, spent_on_flat_ = 0;
   std::size_t most_vertices_;
   const std::atomic<bool>* cancel_;
   std::vector<Place> places_;
