@@ -66,7 +66,7 @@ class Feature_sliver_remover_3 {
   // Of the vertices. With 1, 1.5, 2 and 3 %, the median of 18 models has 1.7, 2.0, 3.1 and 3.5 % more tetrahedra than without removal; below 5
   // degrees are then, of a04 152, 180, 180, 197, of a07 37, 25, 12, 0, of a11 4, 0, 0, 0, of a12 62, 56, 48, 49.
   static constexpr double budget_share = 0.015;
-  static constexpr std::size_t least_budget = 16;  ///< a mesh of fifty vertices may have one flat tetrahedron, too
+  static constexpr std::size_t least_budget = 64;  ///< small meshes have flat tetrahedra, too
 
   struct Place {
     Piece_id piece;
@@ -193,7 +193,7 @@ class Feature_sliver_remover_3 {
 
   /// What `insert` inserts, if there is a budget left or it does not count.
   std::size_t within_budget(const Sliver& s, bool may_count, const auto& insert) {
-    const bool counts = may_count && is_next_to_poor(s.cell);
+    const bool counts = may_count && (is_flat(s) || is_next_to_poor(s.cell));
     std::size_t& spent = is_flat(s) ? spent_on_flat_ : spent_;
     if (counts && spent >= budget_) return 0;
     const std::size_t inserted = insert();
