@@ -37,13 +37,10 @@ class Split_points_3 {
   }
 
   Vec_3 of_subfacet(std::uint32_t slot, Split_reason reason) const {
-    const auto& t = complex_.subfacet(slot);
-    Vec_3 m = circumcenter(slot);
     // Off the center of cocircular vertices, or the next points would be cocircular again.
-    if (reason == Split_reason::flat)
-      m = 0.8 * m + (0.2 / 3) * (position(t.vertices[0]) + position(t.vertices[1]) + position(t.vertices[2]));
+    Vec_3 m = reason == Split_reason::flat ? towards_centroid(slot, 0.2) : circumcenter(slot);
     if (const Index v = ball_around(slot, m); v != Protected_balls_3::none) m = acute_.balls().on_sphere(v, m);
-    return complex_.plane(t.facet).project(m);
+    return complex_.plane(complex_.subfacet(slot).facet).project(m);
   }
 
   /// Where a subsegment may be split for another reason: at a share of its length, but from an acute corner on at its shell only.
@@ -55,9 +52,7 @@ class Split_points_3 {
 
   /// The same of a subfacet: at a share of the way from its circumcenter to its centroid.
   Vec_3 on_subfacet(std::uint32_t slot, double share) const {
-    const auto& t = complex_.subfacet(slot);
-    const Vec_3 corners = position(t.vertices[0]) + position(t.vertices[1]) + position(t.vertices[2]);
-    return complex_.plane(t.facet).project((1 - share) * circumcenter(slot) + (share / 3) * corners);
+    return complex_.plane(complex_.subfacet(slot).facet).project(towards_centroid(slot, share));
   }
 
   /// The midpoint of the longest edge of a subfacet, on its facet's plane, and the subsegment that this edge is, or none.
@@ -89,6 +84,12 @@ class Split_points_3 {
   }
 
  private:
+  /// At a share of the way from a subfacet's circumcenter.
+  Vec_3 towards_centroid(std::uint32_t slot, double share) const {
+    const auto& v = complex_.subfacet(slot).vertices;
+    return (1 - share) * circumcenter(slot) + (share / 3) * (position(v[0]) + position(v[1]) + position(v[2]));
+  }
+
   Vec_3 circumcenter(std::uint32_t slot) const {
     const auto& v = complex_.subfacet(slot).vertices;
     return triangle_circumcenter(position(v[0]), position(v[1]), position(v[2]));

@@ -129,6 +129,7 @@ class Feature_sliver_remover_3 {
 
   void list_places_at_edge(Cell_handle c, int i, int j) {
     auto d = tr_.tds().incident_cells(c, i, j);
+    const auto done = d;
     const Vertex_handle v = c->vertex(i), w = c->vertex(j);
     do {
       // Of the two facets of a cell at the edge, the one that the next cell around does not have.
@@ -137,7 +138,7 @@ class Feature_sliver_remover_3 {
       if (t == Complex::none) continue;
       places_.push_back({complex_.subfacet_id(t), false, complex_.plane(complex_.subfacet(t).facet).project(0.5 * (position(v) + position(w)))});
       list_places_on(t);
-    } while (++d != tr_.tds().incident_cells(c, i, j));
+    } while (++d != done);
   }
 
   void list_places_on(std::uint32_t subfacet) {
@@ -193,9 +194,10 @@ class Feature_sliver_remover_3 {
 
   /// What `insert` inserts, if there is a budget left or it does not count.
   std::size_t within_budget(const Sliver& s, bool may_count, const auto& insert) {
-    const bool counts = may_count && (is_flat(s) || is_next_to_poor(s.cell));
-    std::size_t& spent = is_flat(s) ? spent_on_flat_ : spent_;
-    if (counts && spent >= budget_ + (is_flat(s) ? more_for_flat : 0)) return 0;
+    const bool flat = is_flat(s);
+    const bool counts = may_count && (flat || is_next_to_poor(s.cell));
+    std::size_t& spent = flat ? spent_on_flat_ : spent_;
+    if (counts && spent >= (flat ? budget_ + more_for_flat : budget_)) return 0;
     const std::size_t inserted = insert();
     if (counts) spent += inserted;
     return inserted;
