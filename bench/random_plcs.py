@@ -4,10 +4,12 @@
 
 Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only,
 dented hulls of random points, balls with regular folds, blocks with a top that is not quite flat, curved tops of fused strips of needles,
-bodies that nearly touch, terraces that are nearly flat; some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the numbers of those that
+bodies that nearly touch, terraces that are nearly flat; from 1,000,000 on beams: profiles of U, L, T and others, whose walls have cocircular corners.
+Some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the numbers of those that
 did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that the failure does not need.
+`--min-dihedral A`: dihedral angles below A degrees fail, too, but for those that the input's angles explain.
 
-usage: bench/random_plcs.py [--first N] [--count N] [--kinds KIND,...] [--pgdr PROGRAM] [--limit SECONDS] [--keep FOLDER]
+usage: bench/random_plcs.py [--first N] [--count N] [--kinds KIND,...] [--min-dihedral A] [--pgdr PROGRAM] [--limit SECONDS] [--keep FOLDER]
 Needs: cmake --build build/release --target pgdr-app.
 """
 
@@ -22,6 +24,7 @@ from pathlib import Path
 from measure import ROOT, attempt, table
 
 KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball", "bent", "strip", "touch", "terrace")
+FIRST_BEAM = 1000000  # numbers below keep their kinds, which docs and tests name
 
 
 def _box_faces(facets, first):
@@ -281,6 +284,20 @@ def _terrace(rng, points, facets):
     _bar(points, facets, front, back, rng.uniform(0.3, 1))
 
 
+def _beam(rng, points, facets):
+    """A beam with a profile of U, L, T or a trapezoid, whose measures are small whole numbers."""
+    a, b, c, h, k, length = (rng.choice((1, 2, 3, 4, 5, 6, 8)) for _ in range(6))
+    profile = rng.choice((
+        ((0, 0), (a + b + c, 0), (a + b + c, h + k), (a + b, h + k), (a + b, h), (a, h), (a, h + k), (0, h + k)),
+        ((0, 0), (a + b, 0), (a + b, h), (a, h), (a, h + k), (0, h + k)),
+        ((0, 0), (b, 0), (b, h), (b + c, h), (b + c, h + k), (-a, h + k), (-a, h), (0, h)),
+        ((0, 0), (a + b + c, 0), (a + b, h), (a, h))))
+    n = len(profile)
+    points += [(x, y, z) for z in (0, length * rng.choice((1, 2, 5))) for x, y in profile]
+    facets += [list(range(n)), list(range(n, 2 * n))]
+    facets += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+
+
 def _side(a, b, c, p):
     """Six times the volume of a tetrahedron, with its sign."""
     u, v, w = ([x - y for x, y in zip(q, a)] for q in (b, c, p))
@@ -297,10 +314,14 @@ def _rotation(rng):
             (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)))
 
 
+def kind_of(seed):
+    return "beam" if seed >= FIRST_BEAM else KINDS[seed % len(KINDS)]
+
+
 def plc(seed):
     """(kind, points, facets) of the PLC with this number."""
     rng = random.Random(seed)
-    kind = KINDS[seed % len(KINDS)]
+    kind = kind_of(seed)
     points, facets = [], []
     globals()["_" + kind](rng, points, facets)
     m = _rotation(rng) if rng.random() < 0.7 else ((1, 0, 0), (0, 1, 0), (0, 0, 1))
@@ -321,24 +342,24 @@ def as_poly(points, facets):
     return "\n".join(lines + ["0", "0"]) + "\n"
 
 
-def failure(pgdr, text, limit, folder):
+def failure(pgdr, text, limit, folder, *angle):
     """What is wrong with the mesh of a PLC, or nothing."""
     source, mesh = folder / "input.poly", folder / "output.mesh"
     source.write_text(text)
     code, _, text = attempt([pgdr, "mesh", source, "-o", mesh, "--quiet", "--threads", 1, "--radius-edge-ratio", 2], limit, folder)
     if code != 0:
         return "no end" if code is None else text.strip() or f"exit code {code}"
-    code, _, text = attempt([pgdr, "check", mesh, "--plc", source], 600, folder)
+    code, _, text = attempt([pgdr, "check", mesh, "--plc", source, *angle], 600, folder)
     return "" if code == 0 else next((line for line in text.splitlines() if not line.startswith("ok")), "no end of the check")
 
 
-def minimised(pgdr, points, facets, limit, folder):
+def minimised(pgdr, points, facets, limit, folder, *angle):
     """The facets without those that a failure does not need; without these the PLC has to be valid, too."""
     for f in list(facets):
         fewer = [g for g in facets if g is not f]
         text = as_poly(points, fewer)
         (folder / "fewer.poly").write_text(text)
-        if attempt([pgdr, "info", folder / "fewer.poly"], limit, folder)[0] == 0 and failure(pgdr, text, limit, folder):
+        if attempt([pgdr, "info", folder / "fewer.poly"], limit, folder)[0] == 0 and failure(pgdr, text, limit, folder, *angle):
             facets = fewer
     return facets
 
@@ -347,22 +368,24 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=700)
-    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--kinds", default=",".join((*KINDS, "beam")))
+    parser.add_argument("--min-dihedral")
     parser.add_argument("--pgdr", type=lambda p: Path(p).resolve(), default=ROOT / "build" / "release" / "pgdr")
     parser.add_argument("--limit", type=float, default=20)
     parser.add_argument("--keep", type=Path)
     args = parser.parse_args()
     kinds = args.kinds.split(",")
+    angle = ["--min-dihedral", args.min_dihedral] if args.min_dihedral else []
 
     def one(seed):
         kind, points, facets = plc(seed)
         with tempfile.TemporaryDirectory() as folder:
-            wrong = failure(args.pgdr, as_poly(points, facets), args.limit, Path(folder))
+            wrong = failure(args.pgdr, as_poly(points, facets), args.limit, Path(folder), *angle)
             if wrong and args.keep:
-                facets = minimised(args.pgdr, points, facets, args.limit, Path(folder))
+                facets = minimised(args.pgdr, points, facets, args.limit, Path(folder), *angle)
             return seed, kind, as_poly(points, facets), wrong
 
-    seeds = [s for s in range(args.first, args.first + args.count) if KINDS[s % len(KINDS)] in kinds]
+    seeds = [s for s in range(args.first, args.first + args.count) if kind_of(s) in kinds]
     count, failed = collections.Counter(), collections.Counter()
     with ThreadPoolExecutor(2) as pool:
         for seed, kind, text, wrong in pool.map(one, seeds):
@@ -375,7 +398,7 @@ def main():
                 args.keep.mkdir(parents=True, exist_ok=True)
                 (args.keep / f"{kind}_{seed}.poly").write_text(text)
     print()
-    print(table(["kind", "meshed and checked", "of"], [[k, count[k] - failed[k], count[k]] for k in kinds]))
+    print(table(["kind", "meshed and checked", "of"], [[k, count[k] - failed[k], count[k]] for k in kinds if count[k]]))
     return 1 if failed else 0
 
 

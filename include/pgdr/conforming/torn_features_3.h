@@ -9,6 +9,8 @@
 #include <pgdr/acute/split_spacing_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/encroachment_3.h>
+#include <pgdr/conforming/split_points_3.h>
 
 namespace pgdr {
 
@@ -32,6 +34,18 @@ bool tears_protected(const Constraint_complex_3<Tr>& complex, const Cavity_featu
            const Index facet = complex.subfacet(f.slot).facet;
            return f.deleted && !is_split(facet) && is_protected({2, facet});
          });
+}
+
+/// Whether p, whose cavity is found, encroaches a piece in a protected ball. Once such a piece is missing, it does not come back: subsegments are
+/// not split there, subfacets on the sphere only, and half of an arc is encroached like all of it (docs/theory.md, section 12).
+template <class Tr>
+bool encroaches_protected(const Constraint_complex_3<Tr>& complex, const Cavity_features_3<Tr>& features, const Acute_neighborhood_3& acute,
+                          const typename Tr::Point& p) {
+  const Split_points_3<Tr> pieces(complex, acute);
+  return std::ranges::any_of(features.subsegments(),
+                             [&](const auto& f) { return pieces.is_subsegment_protected(f.slot) && is_encroached(complex.subsegment(f.slot), p); }) ||
+         std::ranges::any_of(features.subfacets(),
+                             [&](const auto& f) { return pieces.is_subfacet_protected(f.slot) && is_encroached(complex.subfacet(f.slot), p); });
 }
 
 }  // namespace pgdr

@@ -105,8 +105,8 @@ class Delaunay_leaf_refiner_3 {
     Features& features = w.features;
     const std::size_t on_features = features.inserted();
     while (true) {
-      if (s.result.inserted + features.inserted() - on_features >= task.quota ||
-          (task.cancel && task.cancel->load(std::memory_order_relaxed))) {
+      const std::size_t done = s.result.inserted + features.inserted() - on_features;
+      if (done >= task.quota || (task.cancel && task.cancel->load(std::memory_order_relaxed))) {
         s.result.stopped = true;
         break;
       }
@@ -132,7 +132,8 @@ class Delaunay_leaf_refiner_3 {
         classifier_.take_fresh(s);
         continue;
       }
-      if (s.result.inserted + features.inserted() - on_features >= task.pause_after && !list.has_steep()) break;
+      if (done >= task.pause_after && !list.has_steep()) break;
+      if (task.territory != 0 && is_in_vain(s, done)) break;
       if (!list.retries_.empty()) {
         const auto errand = list.retries_.pop();
         if (errand->cell.is_live()) refine(s, errand->cell, {std::move(errand->refused), errand->guard.is_strict});
@@ -279,7 +280,10 @@ class Delaunay_leaf_refiner_3 {
       features.close(10000);
     }
     Drain_result result = drain(w, task, list);
-    if (result.stopped) settle(w, std::array{&list}, true, task.outside_target, list, cancel);
+    if (result.stopped) {
+      Worklist left;
+      settle(w, std::array{&list}, true, task.outside_target, left, cancel);
+    }
     return result;
   }
 
@@ -335,6 +339,13 @@ class Delaunay_leaf_refiner_3 {
         box.upper[k] = std::max(box.upper[k], p[k]);
       }
     return box;
+  }
+
+  /// Whether a territory hands on so much of its work, compared with the points that it inserts, that the rest is better done in another
+  /// one: each try searches a cavity (table in docs/performance.md).
+  static bool is_in_vain(Session& s, std::size_t inserted) {
+    constexpr std::size_t patience = 256, tries_for_a_point = 2;
+    return s.list().outgoing_.size() + s.features().outgoing().size() > patience + tries_for_a_point * inserted;
   }
 
   void run_errand(Session& s) const {

@@ -31,6 +31,8 @@ class Divided_work {
 
   /// Points that the leaf's own task inserts before it is asked again whether the work should be divided.
   static constexpr std::size_t most_alone = 128;
+  /// The same of the task of a territory that was made larger: soon enough there may be room for more of them (table in docs/performance.md).
+  static constexpr std::size_t most_in_larger = 1024;
 
   void start_epoch() { halvings_ = 0; }
 
@@ -41,7 +43,6 @@ class Divided_work {
                            const Drain& drain) {
     if (std::exchange(is_stalled_, false)) return std::nullopt;
     double begin = recorder.now();
-    const std::size_t active = list.active();
     auto division = engine.divide(worker, list, task, rounds_++, halvings_);
     const std::size_t n = division.parts.size();
     recorder.section("division", false, begin);
@@ -51,12 +52,15 @@ class Divided_work {
         n, [](std::size_t, std::vector<std::uint32_t>& successors) { successors.clear(); },
         [&](std::size_t k) {
           Leaf_task part = task;
+          if (halvings_ > 0) part.pause_after = most_in_larger;
           part.region = division.regions[k];
           part.territory = static_cast<std::uint16_t>(k + 1);
           if (task.quota != Leaf_task{}.quota) part.quota = task.quota / n + (k < task.quota % n ? 1 : 0);
           results[k] = drain(division.parts[k], part);
         });
     begin = recorder.now();
+    std::size_t handed_on = 0;
+    for (Worklist& part : division.parts) handed_on += part.outgoing().size();
     engine.unite(list, division.parts, task.target, task.outside_target);
     Round round{{}, n};
     for (const Drain_result& r : results) {
@@ -66,16 +70,18 @@ class Divided_work {
       round.result.stopped |= r.stopped;
     }
     recorder.section("union", false, begin);
-    judge(static_cast<double>(list.active()) / static_cast<double>(active));
+    judge(round.result.inserted, handed_on);
     return round;
   }
 
  private:
-  /// `left`: how much is left to do, most of it because it belongs to nobody. Larger territories have less of that.
-  void judge(double left) {
-    is_stalled_ = left > 0.5;
-    if (left > 0.6) ++halvings_;
-    if (left < 0.3 && halvings_ > 0) --halvings_;
+  /// Where most of a round was in vain, since cavities or split points lay beyond a border, the next one has larger territories; where
+  /// hardly anything was, far smaller ones.
+  void judge(std::size_t inserted, std::size_t handed_on) {
+    const double part = inserted == 0 ? 0 : static_cast<double>(inserted) / static_cast<double>(inserted + handed_on);
+    is_stalled_ = part < 0.5;
+    if (part < 0.4) ++halvings_;
+    if (part > 0.7) halvings_ /= 2;
   }
 
   std::size_t rounds_ = 0;

@@ -11,6 +11,7 @@
 
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/torn_features_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/slivers/directions.h>
 #include <pgdr/slivers/exempt_tetrahedra_3.h>
@@ -20,7 +21,8 @@ namespace pgdr {
 
 /// Adds a vertex in the ball of a sliver where that makes no tetrahedron with as small an angle.
 ///
-/// The vertex may encroach what it likes, as long as no piece of the input is deleted: quality is not driven by it any more.
+/// The vertex may encroach what it likes outside of protected balls, as long as no piece of the input is deleted: quality is not driven by it any
+/// more.
 template <class Tr, class Criteria>
 class Sliver_inserter_3 {
  public:
@@ -105,13 +107,15 @@ class Sliver_inserter_3 {
     if (is_spaced(at) && made_.size() <= gone_.count() && largest_ratio <= gone_.squared_ratio()) {
       features_.gather(complex_, cavity_);
       const auto is_explained = [this](const Tetrahedron_points& t) { return gone_.explain(t); };
-      if (features_.deletes_any() || !std::ranges::all_of(made_, is_explained)) worst = refused;
+      if (features_.deletes_any() || is_in_the_way(p) || !std::ranges::all_of(made_, is_explained)) worst = refused;
     } else {
       worst = refused;
     }
     cavity_.abandon();
     return worst;
   }
+
+  bool is_in_the_way(const Point& p) const { return judge_.acute() && encroaches_protected(complex_, features_, *judge_.acute(), p); }
 
   bool is_spaced(const Vec_3& at) const {
     double shortest = std::numeric_limits<double>::infinity();

@@ -11,6 +11,7 @@
 
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/torn_features_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/vertex_hole_3.h>
 #include <pgdr/slivers/average_shape.h>
@@ -293,11 +294,15 @@ class Vertex_mover_3 {
     return c->subfacet(i) == Complex::none && n->subdomain() == c->subdomain() ? Beyond::in_conflict : Beyond::refused;
   }
 
-  /// To the place that was found; back again if that would lose a subsegment.
+  /// To the place that was found; back again if that would lose a subsegment, or encroach what is protected.
   bool move(Vertex_handle v) {
     const Point before = v->point(), at(place_.x, place_.y, place_.z);
     filling_made_ = hole_.commit();
-    const bool is_kept = find(at);
+    bool is_kept = find(at);
+    if (is_kept && judge_.acute() && encroaches_protected(complex_, features_, *judge_.acute(), at)) {
+      cavity_.abandon();
+      is_kept = false;
+    }
     if (!is_kept) find(before);
     std::erase_if(filling_made_, [](Cell_handle c) { return Cavity_3<Tr>::contains(c); });
     cavity_.commit(is_kept ? at : before, v);
