@@ -32,7 +32,7 @@ std::pair<std::size_t, std::size_t> protected_subfacets(const Mesh& mesh) {
   for (const auto c : mesh.triangulation().finite_cell_handles())
     for (int i = 0; i < 4; ++i) {
       const std::uint32_t t = c->subfacet(i);
-      if (t == mesh.complex().none || !pieces.is_subfacet_protected(t)) continue;
+      if (t == complex.none || !pieces.is_subfacet_protected(t)) continue;
       ++count.first;
       count.second +=
           c->vertex(i)->in_dimension() == 3 && pgdr::encroaches(complex, complex.subfacet(t), c->vertex(i));

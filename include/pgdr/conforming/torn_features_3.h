@@ -36,12 +36,13 @@ bool tears_protected(const Constraint_complex_3<Tr>& complex, const Cavity_featu
          });
 }
 
-/// Whether p, whose cavity is found, encroaches a piece in a protected ball. Once such a piece is missing, it does not come back: subsegments are
+/// Whether p, whose cavity is found, encroaches a piece in a protected ball, where there are any (`acute`). Once such a piece is missing, it does not come back: subsegments are
 /// not split there, subfacets on the sphere only, and half of an arc is encroached like all of it (docs/theory.md, section 12).
 template <class Tr>
-bool encroaches_protected(const Constraint_complex_3<Tr>& complex, const Cavity_features_3<Tr>& features, const Acute_neighborhood_3& acute,
+bool encroaches_protected(const Constraint_complex_3<Tr>& complex, const Cavity_features_3<Tr>& features, const Acute_neighborhood_3* acute,
                           const typename Tr::Point& p) {
-  const Split_points_3<Tr> pieces(complex, acute);
+  if (!acute) return false;
+  const Split_points_3<Tr> pieces(complex, *acute);
   return std::ranges::any_of(features.subsegments(),
                              [&](const auto& f) { return pieces.is_subsegment_protected(f.slot) && is_encroached(complex.subsegment(f.slot), p); }) ||
          std::ranges::any_of(features.subfacets(),

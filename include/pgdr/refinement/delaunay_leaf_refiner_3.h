@@ -223,7 +223,7 @@ class Delaunay_leaf_refiner_3 {
 
   /// Splits, with nobody else at work, the missing pieces that no leaf could split, mends the subdomains, and leaves
   /// what follows from it in `list`, for `dispatch`. `closing` also recovers what is missing elsewhere and drops all
-  /// other requests, so that a run that has to stop leaves every facet whole.
+  /// other requests, so that a run that has to stop leaves every facet whole. \pre `list` is none of `torn`
   template <class Lists>
   Drain_result settle(Worker& w, Lists&& torn, bool closing, double outside_target, Worklist& list,
                       const std::atomic<bool>* cancel = nullptr) {

@@ -21,7 +21,8 @@ namespace pgdr {
 /// them larger, for elements whose cavities are large.
 inline std::size_t territory_count(std::size_t active, unsigned halvings) {
   constexpr std::size_t least = 256, usual = 4096, most = 64;
-  const std::size_t n = std::bit_floor(std::clamp<std::size_t>(active / usual, 4, most)) >> halvings;
+  const unsigned shift = std::min<unsigned>(halvings, std::bit_width(most));  // hundreds are possible where cavities stay large
+  const std::size_t n = std::bit_floor(std::clamp<std::size_t>(active / usual, 4, most)) >> shift;
   return active < 2 * least ? 0 : std::clamp<std::size_t>(n, 2, std::bit_floor(active / least));
 }
 

@@ -107,15 +107,14 @@ class Sliver_inserter_3 {
     if (is_spaced(at) && made_.size() <= gone_.count() && largest_ratio <= gone_.squared_ratio()) {
       features_.gather(complex_, cavity_);
       const auto is_explained = [this](const Tetrahedron_points& t) { return gone_.explain(t); };
-      if (features_.deletes_any() || is_in_the_way(p) || !std::ranges::all_of(made_, is_explained)) worst = refused;
+      if (features_.deletes_any() || encroaches_protected(complex_, features_, judge_.acute(), p) || !std::ranges::all_of(made_, is_explained))
+        worst = refused;
     } else {
       worst = refused;
     }
     cavity_.abandon();
     return worst;
   }
-
-  bool is_in_the_way(const Point& p) const { return judge_.acute() && encroaches_protected(complex_, features_, *judge_.acute(), p); }
 
   bool is_spaced(const Vec_3& at) const {
     double shortest = std::numeric_limits<double>::infinity();

@@ -299,7 +299,7 @@ class Vertex_mover_3 {
     const Point before = v->point(), at(place_.x, place_.y, place_.z);
     filling_made_ = hole_.commit();
     bool is_kept = find(at);
-    if (is_kept && judge_.acute() && encroaches_protected(complex_, features_, *judge_.acute(), at)) {
+    if (is_kept && encroaches_protected(complex_, features_, judge_.acute(), at)) {
       cavity_.abandon();
       is_kept = false;
     }
