@@ -2,7 +2,7 @@
 """Makes random CAD parts with OpenCASCADE, tessellated as CAD programs do it, for `bench/models.py`.
 
 Run it by FreeCAD (Debian: `freecad-python3`), which has no arguments for scripts:
-    PARTS=DIR COUNT=160 freecadcmd bench/occ_parts.py
+    PARTS=DIR COUNT=160 freecadcmd bench/occ_parts.py       FIRST=160 for the next ones
 Part k of any run is `DIR/occ_kkk.stl`, a function of k alone (and of OpenCASCADE's version): one to six solids united or cut, up to four
 bores, fillets and chamfers on random edges, a deflection of 0.02 to 0.5 at a size of about 30; a third of them turned.
 """
@@ -107,7 +107,8 @@ def part(number):
 def main():
     folder = Path(os.environ["PARTS"])
     folder.mkdir(parents=True, exist_ok=True)
-    for number in range(int(os.environ.get("COUNT", "160"))):
+    first = int(os.environ.get("FIRST", "0"))
+    for number in range(first, first + int(os.environ.get("COUNT", "160"))):
         try:
             mesh = part(number)
         except Exception as e:  # whatever OpenCASCADE throws

@@ -30,6 +30,15 @@ struct Split_elsewhere {
   bool is_subsegment = false;
 };
 
+/// A piece that is in the way of a point. Slots of subsegments and subfacets are counted apart, so that a number without the kind may
+/// name either.
+struct Obstacle_id {
+  Piece_id piece;
+  bool is_subsegment = false;
+
+  friend bool operator==(const Obstacle_id&, const Obstacle_id&) = default;
+};
+
 /// A piece that waits to be split.
 struct Feature_request {
   Piece_id piece;
@@ -92,8 +101,8 @@ struct Feature_errand_3 {
   Feature_request request{};
   Cell_id_3<Cell_handle> cell;
   Vec_3 home;
-  Piece_id obstacle;
-  std::vector<Piece_id> refused;
+  Obstacle_id obstacle;
+  std::vector<Obstacle_id> refused;
   Vertex_handle by{};
   Index facet = 0;
   bool is_image() const { return by != Vertex_handle(); }

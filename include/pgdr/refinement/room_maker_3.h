@@ -75,7 +75,8 @@ class Room_maker_3 {
     Features& features = s.features();
     const bool segments = s.obstacles().are_subsegments();
     for (const Piece_id& piece : s.obstacles().to_split()) {
-      const bool is_known = std::ranges::find(t.tried.refused, piece) != t.tried.refused.end();
+      const Obstacle_id obstacle{piece, segments};
+      const bool is_known = std::ranges::find(t.tried.refused, obstacle) != t.tried.refused.end();
       const Split_guard of_piece = guard.for_piece(segments ? complex_.subsegment_radius(piece.slot) : complex_.subfacet_radius(piece.slot));
       const Split_outcome outcome = is_known   ? Split_outcome::refused
                                     : segments ? features.split_subsegment(piece.slot, Split_reason::encroached, of_piece)
@@ -85,21 +86,21 @@ class Room_maker_3 {
         return true;
       }
       if (outcome == Split_outcome::elsewhere) {
-        features.outgoing().emplace_back(features.elsewhere().at, errand_for(t, of_piece, piece, features.elsewhere()));
+        features.outgoing().emplace_back(features.elsewhere().at, errand_for(t, of_piece, obstacle, features.elsewhere()));
         return true;
       }
       if (guard.gives_up_at_once()) {
         give_up(s, t);
         return true;
       }
-      if (!is_known) t.tried.refused.push_back(piece);
+      if (!is_known) t.tried.refused.push_back(obstacle);
       if (is_steep(t.ball)) break;
     }
     return false;
   }
 
   /// To split what is elsewhere, for the sake of a tetrahedron that `obstacle` is in the way of.
-  static std::unique_ptr<Errand> errand_for(Attempt& t, const Split_guard& guard, const Piece_id& obstacle, const Split_elsewhere& split) {
+  static std::unique_ptr<Errand> errand_for(Attempt& t, const Split_guard& guard, const Obstacle_id& obstacle, const Split_elsewhere& split) {
     auto errand = std::make_unique<Errand>();
     errand->piece = split.piece;
     errand->is_subsegment = split.is_subsegment;
