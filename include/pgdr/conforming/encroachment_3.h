@@ -3,6 +3,7 @@
 #define PGDR_CONFORMING_ENCROACHMENT_3_H
 
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/mesh/in_ball_filter.h>
 
 namespace pgdr {
 
@@ -22,8 +23,9 @@ bool is_encroached(const Subfacet& t, const Point& p)
   requires requires { t.facet; }
 {
   using Kernel = typename CGAL::Kernel_traits<Point>::Kernel;
-  return typename Kernel::Side_of_bounded_sphere_3()(t.vertices[0]->point(), t.vertices[1]->point(),
-                                                     t.vertices[2]->point(), p) == CGAL::ON_BOUNDED_SIDE;
+  const Point &a = t.vertices[0]->point(), &b = t.vertices[1]->point(), &c = t.vertices[2]->point();
+  if (const int side = side_of_ball(to_vec(a), to_vec(b), to_vec(c), to_vec(p)); side != 0) return side > 0;
+  return typename Kernel::Side_of_bounded_sphere_3()(a, b, c, p) == CGAL::ON_BOUNDED_SIDE;
 }
 
 /// Whether a vertex encroaches a subsegment. Vertices of its own segment do not, whatever rounding says.

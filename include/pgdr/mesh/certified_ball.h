@@ -18,6 +18,8 @@ struct Certified_ball {
   float squared_outside = 0;
 
   bool is_known() const { return squared_inside >= 0; }
+  /// Whether the center is known to less than the radius; not where the ball is small and floats are far apart.
+  bool has_center() const { return squared_inside > 0; }
   void forget() { squared_inside = -1; }
 
   /// 1: certainly inside, -1: certainly outside, 0: too close to tell. \pre is_known()
@@ -33,11 +35,11 @@ struct Certified_ball {
     // Rounding to float moves a coordinate by at most 2^-24 of it; the tiny term is for subnormal ones.
     const double e = 0x1p-24 * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) + 2 * relative_error * r + 1e-40;
     const double inside = r - e, outside = r + e;
-    if (!(inside > 0) || !(outside < 1e18)) return forget();
+    if (!(r > 0) || !(outside < 1e18)) return forget();
     for (int k = 0; k < 3; ++k) center[k] = static_cast<float>(c[k]);
     // A margin for rounding the squares to float, and for the rounding of `side` itself.
     constexpr double margin = 1e-6;
-    squared_inside = static_cast<float>(inside * inside * (1 - margin));
+    squared_inside = inside > 0 ? static_cast<float>(inside * inside * (1 - margin)) : 0.0f;
     squared_outside = static_cast<float>(outside * outside * (1 + margin));
   }
 };

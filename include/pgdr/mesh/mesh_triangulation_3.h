@@ -11,6 +11,7 @@
 #include <CGAL/tags.h>
 
 #include <pgdr/domain/vec_3.h>
+#include <pgdr/mesh/in_ball_filter.h>
 #include <pgdr/mesh/mesh_cell_base_3.h>
 #include <pgdr/mesh/mesh_vertex_base_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
@@ -62,6 +63,7 @@ class Mesh_triangulation_3
 
   /// Whether the open circumball of a positive tetrahedron holds p, ties broken the same way. Exact.
   bool in_ball(const Point& p0, const Point& p1, const Point& p2, const Point& p3, const Point& p) const {
+    if (const int side = side_of_ball(to_vec(p0), to_vec(p1), to_vec(p2), to_vec(p3), to_vec(p)); side != 0) return side > 0;
     return this->side_of_oriented_sphere(p0, p1, p2, p3, p, true) == CGAL::ON_POSITIVE_SIDE;
   }
 

@@ -16,7 +16,7 @@ namespace pgdr {
 template <class Cell_handle>
 bool may_meet(Cell_handle c, const Region_3& box) {
   const Certified_ball& b = c->ball();
-  if (b.is_known()) {
+  if (b.has_center()) {
     const double r2 = static_cast<double>(b.squared_outside);
     bool center_in = true;
     for (int k = 0; k < 3; ++k) {
@@ -42,7 +42,7 @@ Scan_result scan_box(const Tr& tr, const Region_3& box, const Region_3& hole, do
   double coarsest = 0;
   const auto is_small = [&](Cell_handle c) {
     double known = static_cast<double>(c->ball().squared_outside);
-    if (!c->ball().is_known() || known >= bound * bound) {
+    if (!c->ball().has_center() || known >= bound * bound) {
       const Tetrahedron_points p = tetrahedron_points(c);
       const Tetrahedron_ball b = tetrahedron_ball(p);
       if (b.squared_radius >= bound * bound * (1 - 1e-8) && boxes_meet(p, box) && !is_inside(p, hole) &&

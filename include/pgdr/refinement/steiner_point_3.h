@@ -68,7 +68,7 @@ class Steiner_points_3 {
   /// Good enough to find the leaf that will look at it; that one computes the point itself.
   Vec_3 roughly(Cell_handle c) const {
     const Certified_ball& b = c->ball();
-    if (b.is_known()) {
+    if (b.has_center()) {
       const Vec_3 p{static_cast<double>(b.center[0]), static_cast<double>(b.center[1]),
                     static_cast<double>(b.center[2])};
       if (hull_.box().contains_closed(p)) return p;
