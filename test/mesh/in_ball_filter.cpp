@@ -47,7 +47,7 @@ struct Crowd {
   }
 };
 
-/// How many of the points both told, or only one of them.
+/// How many questions there were, and how many of them were decided in doubles, or at all.
 struct Tally {
   std::size_t all = 0, in_doubles = 0, told = 0;
 };

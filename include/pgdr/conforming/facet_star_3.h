@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/encroachment_3.h>
 #include <pgdr/mesh/territory_3.h>
 
 namespace pgdr {
@@ -20,7 +21,6 @@ template <class Tr>
 class Facet_star_3 {
  public:
   using Complex = Constraint_complex_3<Tr>;
-  using Kernel = typename Tr::Geom_traits;
   using Point = typename Tr::Point;
   using Vertex_handle = typename Tr::Vertex_handle;
 
@@ -120,8 +120,7 @@ class Facet_star_3 {
   static bool is_doomed(const Complex& complex, std::uint32_t n, const Point& p) {
     const auto& t = complex.subfacet(n);
     if (t.present) return t.scratch & deleted_bit;
-    return typename Kernel::Side_of_bounded_sphere_3()(t.vertices[0]->point(), t.vertices[1]->point(),
-                                                       t.vertices[2]->point(), p) == CGAL::ON_BOUNDED_SIDE;
+    return is_encroached(t, p);
   }
 
   /// The star is a disk of counterclockwise triangles: p is strictly left of every edge, and no vertex starts two. What it

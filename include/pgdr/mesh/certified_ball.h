@@ -14,7 +14,7 @@ namespace pgdr {
 /// It decides nearly every in-sphere test from the cell alone, without its vertices.
 struct Certified_ball {
   float center[3] = {0, 0, 0};
-  float squared_inside = -1;   ///< negative: nothing is known
+  float squared_inside = -1;   ///< negative: nothing is known; 0: no point is certainly inside
   float squared_outside = 0;
 
   bool is_known() const { return squared_inside >= 0; }

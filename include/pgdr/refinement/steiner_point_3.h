@@ -17,7 +17,7 @@ namespace pgdr {
 /// What came of the attempts before to make room for a tetrahedron.
 struct Tried {
   std::vector<Obstacle_id> refused;  ///< what is in the way, and may not be split for its sake
-  bool is_strict = true;          ///< with the floor everywhere
+  bool is_strict = true;             ///< with the floor everywhere
 };
 
 /// A tetrahedron that is looked at, and its Steiner point.
