@@ -10,6 +10,7 @@
 
 #include <pgdr/mesh/edge_table.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
+#include <pgdr/mesh/prefetch.h>
 #include <pgdr/mesh/territory_3.h>
 #include <pgdr/mesh/zone_guard_3.h>
 
@@ -78,6 +79,7 @@ class Cavity_3 {
             if (!territory_.owns(n)) return reject();
             n->tds_data().mark_in_conflict();
             cells_.push_back(n);
+            for (int j = 0; j < 4; ++j) prefetch(n->neighbor(j));
             continue;
           }
           n->tds_data().mark_on_boundary();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <pgdr/mesh/mesh_triangulation_3.h>
+#include <pgdr/mesh/prefetch.h>
 #include <pgdr/mesh/territory_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 
@@ -192,14 +193,20 @@ class Vertex_hole_3 {
     star_.push_back(vertex_->cell());
     for (std::size_t k = 0; k < star_.size(); ++k) {
       const Cell_handle c = star_[k];
+      if (k + 2 < star_.size())
+        for (int i = 0; i < 4; ++i) prefetch(star_[k + 2]->vertex(i));
       is_foreign_ = !territory_.owns(c);
       if (is_foreign_ || tr_->is_infinite(c) || c->subdomain() != star_.front()->subdomain()) return false;
       const int at = c->index(vertex_);
+      prefetch(c->neighbor(at));
       for (int i = 0; i < 4; ++i) {
         if (i == at) continue;
         if (c->subfacet(i) != Tr::Cell::no_subfacet) return false;
         const Cell_handle n = c->neighbor(i);
-        if (std::ranges::find(star_, n) == star_.end()) star_.push_back(n);
+        if (std::ranges::find(star_, n) == star_.end()) {
+          prefetch(n);
+          star_.push_back(n);
+        }
       }
       // Twice as many triangles as vertices, less four, bound the hole.
       if (star_.size() > 2 * most_vertices - 4) return false;

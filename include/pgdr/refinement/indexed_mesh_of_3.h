@@ -18,6 +18,7 @@
 
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/mesh/indexed_mesh_3.h>
+#include <pgdr/mesh/prefetch.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/parallel/parallel_for.h>
 #include <pgdr/parallel/parallel_reduce.h>
@@ -173,12 +174,6 @@ class Indexed_mesh_builder_3 {
         if (c->subsegment_edges() & edge_bit(i, j))
           if (const std::uint32_t s = mesh.complex().find_subsegment(c->vertex(i), c->vertex(j)); s != Complex::none)
             std::atomic_ref<std::uint8_t>(meshed_subsegments_[s]).store(1, std::memory_order_relaxed);
-  }
-
-  static void prefetch([[maybe_unused]] typename Tr::Vertex_handle v) {
-#if defined(__GNUC__)
-    __builtin_prefetch(reinterpret_cast<const char*>(&*v) + sizeof(typename Tr::Vertex) / 2);
-#endif
   }
 
   static int id_of(const Mesh& mesh, Cell_handle c) {

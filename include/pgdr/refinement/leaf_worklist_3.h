@@ -12,6 +12,7 @@
 #include <pgdr/conforming/feature_request.h>
 #include <pgdr/conforming/fifo.h>
 #include <pgdr/domain/vec_3.h>
+#include <pgdr/mesh/prefetch.h>
 #include <pgdr/refinement/radius_queue.h>
 
 namespace pgdr {
@@ -187,6 +188,7 @@ class Leaf_worklist_3 {
     const auto hand_out_from = [&](auto&& queue, const auto& queue_of, const auto&... more) {
       bool stays = false;
       while (!queue.empty()) {
+        prefetch_from(queue);
         auto item = queue.pop();
         const std::uint16_t k = number_of(item, more...);
         stays |= k == 0;
@@ -250,7 +252,7 @@ class Leaf_worklist_3 {
       return id;
     }
     Radius_queue<Cell_id>& queue = active_.empty() ? active_outside_ : active_;
-    prefetch(queue.next());
+    prefetch_from(queue.next());
     return queue.pop();
   }
   bool has_active() const { return has_steep() || !active_.empty() || !active_outside_.empty(); }
@@ -267,20 +269,19 @@ class Leaf_worklist_3 {
   friend class Delaunay_leaf_refiner_3;
   friend class Leaf_session_3<Tr>;
 
-  /// The queue walks all over the leaf; asking for what comes next hides part of the way to memory.
-  static void prefetch(const Fifo<Cell_id>& queue) {
+  /// Neighbors in a queue lie anywhere in memory: asks for what is needed soon.
+  static void prefetch_from(const Fifo<Cell_id>& queue) {
     constexpr std::size_t far = 16, near = 8;
     if (queue.size() <= far) return;
-    const char* next = reinterpret_cast<const char*>(&*queue[far].cell);
-    __builtin_prefetch(next);
-    __builtin_prefetch(next + 64);
+    prefetch(queue[far].cell);
     if (!queue[near].is_live()) return;
     for (int i = 0; i < 4; ++i) {
-      __builtin_prefetch(&*queue[near].cell->vertex(i));
-      __builtin_prefetch(&*queue[near].cell->neighbor(i));
-      __builtin_prefetch(reinterpret_cast<const char*>(&*queue[near].cell->neighbor(i)) + 64);
+      prefetch(queue[near].cell->vertex(i));
+      prefetch(queue[near].cell->neighbor(i));
     }
   }
+  template <class Queue>
+  static void prefetch_from(const Queue&) {}
 
   /// The largest first, then the oldest.
   struct Steep {

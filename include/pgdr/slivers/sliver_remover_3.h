@@ -10,6 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include <pgdr/mesh/prefetch.h>
 #include <pgdr/slivers/sliver_3.h>
 #include <pgdr/slivers/sliver_inserter_3.h>
 #include <pgdr/slivers/vertex_mover_3.h>
@@ -56,7 +57,8 @@ class Sliver_remover_3 {
   /// Moves vertices of the slivers that are known, those made by moves included, a vertex only once for all that are known at the time.
   void move_all() {
     using Outcome = typename Vertex_mover_3<Tr, Criteria>::Outcome;
-    for (; next_ < known_.size() && !is_cancelled(); ++next_)
+    for (; next_ < known_.size() && !is_cancelled(); ++next_) {
+      prefetch_from(next_);
       for (int i = 0; i < 4 && known_[next_].is_live(); ++i) {
         const Vertex_handle v = known_[next_].cell->vertex(i);
         if (v->in_dimension() != 3) continue;
@@ -71,6 +73,18 @@ class Sliver_remover_3 {
         ++result_.moved;
         if (!mover_.is_cured()) mover_.for_made([this](Cell_handle c) { note(c); });
       }
+    }
+  }
+
+  /// Neighbors among the slivers lie anywhere in memory.
+  void prefetch_from(std::size_t k) const {
+    constexpr std::size_t far = 6, near = 4, next = 2;
+    if (k + far >= known_.size()) return;
+    prefetch(known_[k + far].cell);
+    if (known_[k + near].is_live())
+      for (int i = 0; i < 4; ++i) prefetch(known_[k + near].cell->vertex(i));
+    if (known_[k + next].is_live())
+      for (int i = 0; i < 4; ++i) prefetch(known_[k + next].cell->vertex(i)->cell());
   }
 
   void insert_all() {
