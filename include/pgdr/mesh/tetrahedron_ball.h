@@ -10,6 +10,7 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <pgdr/domain/exact_ring.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
@@ -42,8 +43,10 @@ inline std::array<std::size_t, 2> shortest_edge(const Tetrahedron_points& p) {
   return ends;
 }
 
-/// The ball by rational arithmetic, each figure rounded once; for cells so flat that doubles have no say.
-[[gnu::noinline]] inline Tetrahedron_ball exact_tetrahedron_ball(const Tetrahedron_points& p) {
+namespace internal {
+
+/// The ball by rational arithmetic, each figure rounded once.
+inline Tetrahedron_ball rational_tetrahedron_ball(const Tetrahedron_points& p) {
   using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
   std::array<Exact::Point_3, 4> q;
   for (std::size_t i = 0; i < 4; ++i) q[i] = Exact::Point_3(p[i].x, p[i].y, p[i].z);
@@ -59,6 +62,38 @@ inline std::array<std::size_t, 2> shortest_edge(const Tetrahedron_points& p) {
   b.center = {CGAL::to_double(c.x()), CGAL::to_double(c.y()), CGAL::to_double(c.z())};
   b.squared_radius = CGAL::to_double(CGAL::squared_distance(c, q[0]));
   return b;
+}
+
+}  // namespace internal
+
+/// The ball by exact determinants, off by a few roundings of their quotients; for cells so flat that doubles have no say.
+[[gnu::noinline]] inline Tetrahedron_ball exact_tetrahedron_ball(const Tetrahedron_points& p) {
+  using Exact = CGAL::Simple_cartesian<Exact_ring>;
+  using Vector = Exact::Vector_3;
+  std::array<Exact::Point_3, 4> q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = Exact::Point_3(p[i].x, p[i].y, p[i].z);
+  const Vector u = q[1] - q[0], v = q[2] - q[0], w = q[3] - q[0];
+  const Vector vw = CGAL::cross_product(v, w), wu = CGAL::cross_product(w, u), uv = CGAL::cross_product(u, v);
+  const auto determinant = u * vw;
+  Tetrahedron_ball b;
+  b.squared_shortest = squared_shortest_edge(p);
+  if (CGAL::is_zero(determinant)) {
+    b.squared_radius = std::numeric_limits<double>::infinity();
+    return b;
+  }
+  const double det = CGAL::to_double(determinant);
+  const Vector n = vw * u.squared_length() + wu * v.squared_length() + uv * w.squared_length();
+  const Vec_3 numerator{CGAL::to_double(n.x()), CGAL::to_double(n.y()), CGAL::to_double(n.z())};
+  // Twice the determinant times the radius, so not denormal either if the radius is not.
+  constexpr double least = 1e-150;
+  if (std::abs(det) > least && std::isfinite(squared_length(numerator))) {
+    const Vec_3 offset = (0.5 / det) * numerator;
+    b.center = p[0] + offset;
+    b.squared_radius = squared_length(offset);
+    b.volume = det / 6;
+    return b;
+  }
+  return internal::rational_tetrahedron_ball(p);
 }
 
 /// Relative to the circumradius: how far center and radius of a `tetrahedron_ball` are off at most.
@@ -83,6 +118,9 @@ class Tetrahedron_frame {
     // The determinant's rounding error is a few units of 1e-16 |u||v||w|.
     return det * det < 1e-12 * squared_length(u_) * squared_length(v_) * squared_length(w_);
   }
+
+  /// Positive where the corners are in positive order; off by a few units of 1e-16 of the product of three edges, flat or not.
+  double volume() const { return dot(u_, vw_) / 6; }
 
   /// Circumball, shortest edge and volume, all to about eight digits.
   [[gnu::always_inline]] Tetrahedron_ball ball() const {

@@ -10,6 +10,8 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/number_utils.h>
 
+#include <pgdr/domain/exact_ring.h>
+
 namespace pgdr {
 
 namespace quality_detail {
@@ -63,11 +65,21 @@ Vector<T> center_numerator(const Vector<T>& u, const Vector<T>& v, const Vector<
 }
 
 inline double exact_squared_circumradius(const P& a, const P& b, const P& c, const P& d) {
-  using Q = CGAL::Exact_rational;
-  const Q det = determinant<Q>(a, b, c, d);
+  const Exact_ring det = determinant<Exact_ring>(a, b, c, d);
   if (CGAL::is_zero(det)) return std::numeric_limits<double>::infinity();
-  const Vector<Q> n = center_numerator(difference<Q>(b, a), difference<Q>(c, a), difference<Q>(d, a));
-  return CGAL::to_double(Q(dot(n, n) / (Q(4) * det * det)));
+  const auto n = center_numerator(difference<Exact_ring>(b, a), difference<Exact_ring>(c, a), difference<Exact_ring>(d, a));
+  const double twice = 2 * CGAL::to_double(det);
+  double squared = 0;
+  for (const Exact_ring& x : n) {
+    const double offset = CGAL::to_double(x) / twice;
+    squared += offset * offset;
+  }
+  constexpr double least = 1e-150;  // far from where doubles are denormal
+  if (std::abs(twice) > least && std::isfinite(squared)) return squared;
+  using Q = CGAL::Exact_rational;
+  const Q exact = determinant<Q>(a, b, c, d);
+  const auto m = center_numerator(difference<Q>(b, a), difference<Q>(c, a), difference<Q>(d, a));
+  return CGAL::to_double(Q(dot(m, m) / (Q(4) * exact * exact)));
 }
 
 }  // namespace quality_detail
@@ -84,7 +96,7 @@ inline double orientation_determinant(const std::array<double, 3>& a, const std:
   const double scale =
       std::abs(u[0]) * magnitude[0] + std::abs(u[1]) * magnitude[1] + std::abs(u[2]) * magnitude[2];
   if (q::rounding * scale <= q::accepted_error * std::abs(det)) return det;
-  return CGAL::to_double(q::determinant<CGAL::Exact_rational>(a, b, c, d));
+  return CGAL::to_double(q::determinant<Exact_ring>(a, b, c, d));
 }
 
 /// Volume of the tetrahedron, positive when det(b-a, c-a, d-a) is; exact fallback as in
@@ -95,7 +107,7 @@ inline double signed_volume(const std::array<double, 3>& a, const std::array<dou
 }
 
 /// Square of the circumradius; infinity when the four points are coplanar. Relative error below 1e-10: where
-/// cancellation in double arithmetic could cost more, the value is computed with rational numbers.
+/// cancellation in double arithmetic could cost more, it is computed with exact numbers.
 inline double squared_circumradius(const std::array<double, 3>& a, const std::array<double, 3>& b,
                                    const std::array<double, 3>& c, const std::array<double, 3>& d) {
   namespace q = quality_detail;

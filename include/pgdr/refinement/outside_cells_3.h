@@ -54,7 +54,7 @@ double outside_volume(const Tr& tr, double whole) {
     if (c->subdomain() != 0) continue;
     Tetrahedron_points corners;
     std::ranges::transform(sorted_corners(c), corners.begin(), [](const auto& p) { return Vec_3{p[0], p[1], p[2]}; });
-    sum += static_cast<std::uint64_t>(std::abs(tetrahedron_ball(corners).volume) / whole * parts);
+    sum += static_cast<std::uint64_t>(std::abs(Tetrahedron_frame(corners).volume()) / whole * parts);
   }
   return static_cast<double>(sum) / parts * whole;
 }
