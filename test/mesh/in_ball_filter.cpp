@@ -15,6 +15,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using pgdr::Vec_3;
+using pgdr_test::in_cube;
 using pgdr_test::Random;
 
 Point point(const Vec_3& v) { return Point(v.x, v.y, v.z); }
@@ -25,11 +26,6 @@ int exact(const Vec_3& a, const Vec_3& b, const Vec_3& c, const Vec_3& d, const 
 }
 int exact(const Vec_3& a, const Vec_3& b, const Vec_3& c, const Vec_3& p) {
   return static_cast<int>(Kernel().side_of_bounded_sphere_3_object()(point(a), point(b), point(c), point(p)));
-}
-
-Vec_3 in_cube(Random& random, double half) {
-  const double x = random.between(-half, half), y = random.between(-half, half), z = random.between(-half, half);
-  return {x, y, z};
 }
 
 /// Points around a place, as far apart as `size`, within `height` of a plane, and on a grid or not.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <random>
 
+#include <pgdr/domain/vec_3.h>
+
 namespace pgdr_test {
 
 /// Random numbers that are the same on every machine, unlike the distributions of the standard library.
@@ -20,6 +22,11 @@ class Random {
  private:
   std::mt19937_64 engine_;
 };
+
+inline pgdr::Vec_3 in_cube(Random& random, double half) {
+  const double x = random.between(-half, half), y = random.between(-half, half), z = random.between(-half, half);
+  return {x, y, z};
+}
 
 }  // namespace pgdr_test
 

@@ -13,19 +13,15 @@ namespace {
 using pgdr::Tetrahedron_ball;
 using pgdr::Tetrahedron_points;
 using pgdr::Vec_3;
+using pgdr_test::in_cube;
 using pgdr_test::Random;
-
-Vec_3 in_box(Random& random, double size) {
-  const double x = random.between(-1, 1), y = random.between(-1, 1), z = random.between(-1, 1);
-  return {size * x, size * y, size * z};
-}
 
 /// Corners near one plane, some of them also near one circle.
 Tetrahedron_points flat(Random& random, double size, double height, bool is_cocircular) {
-  const Vec_3 at = in_box(random, 3 * size);
+  const Vec_3 at = in_cube(random, 3 * size);
   Tetrahedron_points p;
   for (Vec_3& corner : p) {
-    Vec_3 v = in_box(random, size);
+    Vec_3 v = in_cube(random, size);
     if (is_cocircular) {
       const double r = std::hypot(v.x, v.y);
       v = {size / r * v.x, size / r * v.y, v.z};
@@ -51,7 +47,7 @@ void compare_balls(const Tetrahedron_ball& ball, const Tetrahedron_ball& rationa
 
 }  // namespace
 
-TEST_CASE("The exact ball of a flat tetrahedron is that of rational numbers, of any size") {
+TEST_CASE("The exact ball of a flat tetrahedron is that of rational numbers, of any size", "[mesh]") {
   Random random(7);
   // The last ones are where determinants in doubles would be denormal, or infinite.
   for (const double size : {1.0, 1e-3, 1e20, 1e-40, 1e-70, 1e-100, 1e33, 1e60})
@@ -62,7 +58,7 @@ TEST_CASE("The exact ball of a flat tetrahedron is that of rational numbers, of 
       }
 }
 
-TEST_CASE("A tetrahedron that is exactly flat has no ball") {
+TEST_CASE("A tetrahedron that is exactly flat has no ball", "[mesh]") {
   const Tetrahedron_points p{Vec_3{0, 0, 0.1}, Vec_3{1, 0, 0.1}, Vec_3{0, 1, 0.1}, Vec_3{1, 1, 0.1}};
   CHECK(pgdr::exact_tetrahedron_ball(p).squared_radius == std::numeric_limits<double>::infinity());
   CHECK(pgdr::tetrahedron_ball(p).squared_radius == std::numeric_limits<double>::infinity());
