@@ -32,3 +32,14 @@ configure() {
 build() {
   (cd "$root" && cmake --build --preset "$1" --parallel "$(jobs_at_once)" ${2:+--target "$2"})
 }
+
+# Prints the comment at the head of the script, and ends it, if one of its arguments asks for help.
+answer_help() {
+  local argument
+  for argument in "$@"; do
+    if [[ $argument == -h || $argument == --help ]]; then
+      sed -n -e '/^#!/d' -e '/^# SPDX/d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0"
+      exit 0
+    fi
+  done
+}

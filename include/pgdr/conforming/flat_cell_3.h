@@ -11,7 +11,7 @@
 namespace pgdr {
 
 /// A subfacet of the cell on whose facet the opposite vertex lies too, or `none`: the cell is flat, a product of
-/// rounding between cocircular points, with a fair radius-edge ratio and no volume.
+/// rounding between cocircular points, or of a facet that is bent, with a fair radius-edge ratio and no volume.
 template <class Tr>
 std::uint32_t subfacet_of_flat_cell(const Constraint_complex_3<Tr>& complex, typename Tr::Cell_handle c) {
   for (int i = 0; i < 4; ++i) {
@@ -21,10 +21,11 @@ std::uint32_t subfacet_of_flat_cell(const Constraint_complex_3<Tr>& complex, typ
   return Constraint_complex_3<Tr>::none;
 }
 
-/// Gives a flat cell to the outside: where the sheet of a facet passes below the cell, with nothing meshed beyond,
-/// it may as well pass above it. True if that was done; the two subfacets keep their slots.
+/// Gives a flat cell to the subdomain that is beyond its facet: where the sheet passes on one side of the cell, it may as well pass on the
+/// other. True if that was done; the two subfacets keep their slots. False unless the cell has two of them, neighbors in the sheet, with
+/// `to` beyond both.
 template <class Tr>
-bool hand_to_outside(Constraint_complex_3<Tr>& complex, typename Tr::Cell_handle c) {
+bool move_across_sheet(Constraint_complex_3<Tr>& complex, typename Tr::Cell_handle c, std::int32_t to) {
   constexpr std::uint32_t none = Constraint_complex_3<Tr>::none;
   int marked[2], n_marked = 0, n_free = 0;
   for (int i = 0; i < 4; ++i) {
@@ -40,7 +41,7 @@ bool hand_to_outside(Constraint_complex_3<Tr>& complex, typename Tr::Cell_handle
       complex.edge_with_neighbor(u, t) < 0)
     return false;
   for (const int i : marked)
-    if (c->neighbor(i)->subdomain() != 0 || !complex.is_on_facet(c->vertex(i), facet)) return false;
+    if (c->neighbor(i)->subdomain() != to || !complex.is_on_facet(c->vertex(i), facet)) return false;
 
   // Counterclockwise (j, k, l) and (i, l, k) become (j, k, i) and (i, l, j).
   const auto& first = complex.subfacet(t);
@@ -54,7 +55,7 @@ bool hand_to_outside(Constraint_complex_3<Tr>& complex, typename Tr::Cell_handle
   complex.flip(t, u);
   mark_facet<Tr>(c, c->index(l), t);
   mark_facet<Tr>(c, c->index(k), u);
-  c->set_subdomain(0);
+  c->set_subdomain(to);
   return true;
 }
 

@@ -114,7 +114,7 @@ class Cell_classifier_3 {
       flat.pop_back();
       const std::uint32_t t = subfacet_of_flat_cell(complex_, d);
       if (t == Complex::none) continue;
-      if (!hand_to_outside(complex_, d)) {
+      if (!move_across_sheet(complex_, d, 0)) {
         // In a bent facet any four vertices may be off one plane by what they are apart, and another point makes other such four.
         if (!complex_.is_bent(complex_.subfacet(t).facet)) s.features().request_subfacet(t, Split_reason::flat);
         continue;

@@ -9,6 +9,7 @@
 #include <pgdr/acute/split_guard_3.h>
 #include <pgdr/acute/split_spacing_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
+#include <pgdr/conforming/sheet_shift_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/refinement/cell_classifier_3.h>
@@ -118,9 +119,25 @@ class Inside_refiner_3 {
       t.at = points_.hull().pull_in(exact_tetrahedron_ball(t.corners).center, t.corners);
       if (!s.task().region.contains(t.at) || !cavity.find(t.point(), c)) return hand_on_or_give_up();
     }
-    if (!s.collect_obstacles(complex_, t.point())) return Trial::clear;
+    if (!s.collect_obstacles(complex_, t.point()) || clears_flat_cells(s, t)) return Trial::clear;
     cavity.abandon();
     return room_.make_room(s, t) ? Trial::done : Trial::no_room;
+  }
+
+  /// Whether all that the point would delete are subfacets before flat cells, so that their sheets pass behind these from now on.
+  bool clears_flat_cells(Session& s, const Attempt& t) const {
+    if (!s.obstacles().are_deleted_only()) return false;
+    Sheet_shift_3<Tr>& sheets = s.features().sheets();
+    if (!sheets.shift(complex_, tr_, s.cavity(), t.point())) return false;
+    if (!s.collect_obstacles(complex_, t.point())) {
+      s.features().note_shifted();
+      // If another point is inserted after all, they may stay.
+      for (const auto& m : sheets.moved()) s.features().fresh_cells().push_back({m.cell, m.cell->generation(), 0});
+      return true;
+    }
+    sheets.take_back(complex_);
+    s.collect_obstacles(complex_, t.point());
+    return false;
   }
 
   /// Where the first choice leaves an angle that is too small: takes the first other point that leaves none, if there is one. Its cavity

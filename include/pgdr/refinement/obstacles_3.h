@@ -26,12 +26,15 @@ class Obstacles_3 {
   bool collect(const Complex& complex, const Cavity_features_3<Tr>& features, const Point& p) {
     subsegments_.clear();
     subfacets_.clear();
+    is_encroaching_ = false;
     for (const auto& f : features.subsegments())
       if (f.deleted || is_encroached(complex.subsegment(f.slot), p))
         subsegments_.push_back(complex.subsegment_id(f.slot));
     for (const auto& f : features.subfacets()) {
       const auto& t = complex.subfacet(f.slot);
-      if (!f.deleted && !is_encroached(t, p)) continue;
+      const bool encroached = is_encroached(t, p);
+      if (!f.deleted && !encroached) continue;
+      is_encroaching_ |= encroached;
       subfacets_.push_back(complex.subfacet_id(f.slot));
       if (subfacets_.size() > 1 && is_below(complex, t, p)) std::swap(subfacets_.front(), subfacets_.back());
     }
@@ -55,6 +58,9 @@ class Obstacles_3 {
     return !subsegments_.empty();
   }
 
+  /// Whether all of them are subfacets that the point would delete without encroaching one.
+  bool are_deleted_only() const { return subsegments_.empty() && !is_encroaching_; }
+
   /// What to split in the point's stead, in this order: only where there is no subsegment a subfacet, and among these
   /// first the one below the point (the guarantee's factor sqrt(2) needs it).
   bool are_subsegments() const { return !subsegments_.empty(); }
@@ -69,6 +75,7 @@ class Obstacles_3 {
 
   std::vector<Piece_id> subsegments_;
   std::vector<Piece_id> subfacets_;
+  bool is_encroaching_ = false;
 };
 
 }  // namespace pgdr
