@@ -122,7 +122,7 @@ void add_options(CLI::App& parser, Mesh_arguments& arguments) {
                   "Leave out the volume bounds of the input's regions");
   parser
       .add_option("--min-edge-length", arguments.min_edge_length,
-                  "Put no new vertex closer than this to another one, and stop where the bounds ask for it (default: 1e-9 of the bounding box's diagonal)")
+                  "Put no new vertex closer than this to another one, and stop where the bounds ask for it (default: 1e-12 of the bounding box's diagonal)")
       ->type_name("L");
   parser
       .add_option("--max-vertices", arguments.max_vertices, "Stop at this many vertices (default: no limit)")

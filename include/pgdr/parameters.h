@@ -61,8 +61,8 @@ struct Parameters {
   /// Leave out the volume bounds of the regions in the input.
   bool ignore_region_sizes = false;
 
-  /// No Steiner point comes closer than this to another vertex; 0: 1e-9 of the bounding box's diagonal, below which double
-  /// precision no longer separates the points of a facet. What cannot be recovered or refined without is left, and counted.
+  /// No Steiner point comes closer than this to another vertex; 0: 1e-12 of the bounding box's diagonal, below which double
+  /// precision no longer separates the points of a facet well. What cannot be recovered or refined without is left, and counted.
   double min_edge_length = 0;
 
   /// The refinement stops at this many vertices, plus the few it may take to leave every facet whole; 0: no limit.

@@ -59,6 +59,30 @@ TEST_CASE("A minimum edge length that the size does not reach changes nothing", 
   CHECK(pgdr::indexed_mesh_3(with).tetrahedra == without.tetrahedra);
 }
 
+TEST_CASE("The minimum edge length does not keep like points from corners of a millionth of a radian", "[refinement]") {
+  for (const double angle : {1e-5, 1e-6}) {
+    // A needle, and a triangle at the needle's corner that is a ten-thousandth as long.
+    Plc plc = box();
+    const pgdr::Vec_3 corner{0.3, 0.3, 0.3};
+    const auto add_triangle = [&](const pgdr::Vec_3& a, const pgdr::Vec_3& b) {
+      const auto first = static_cast<pgdr::Index>(plc.vertices.size());
+      for (const pgdr::Vec_3& p : {corner + a, corner + b}) plc.vertices.emplace_back(p.x, p.y, p.z);
+      plc.facets.push_back({{{8, first, first + 1}}, {}, 0});
+    };
+    REQUIRE(plc.vertices.size() == 8);
+    plc.vertices.emplace_back(corner.x, corner.y, corner.z);
+    add_triangle({0.4, 0, 0}, {0.4, 0.4 * angle, 0});
+    add_triangle({7e-5, 1e-5, 5e-5}, {2e-5, -6e-5, 4e-5});
+    CAPTURE(angle);
+    const Mesh mesh = refined(plc);
+    CHECK(mesh.statistics().stop == Stop_reason::finished);
+    CHECK(mesh.statistics().unrecovered == 0);
+    const auto indexed = pgdr::indexed_mesh_3(mesh);
+    CHECK(shortest_edge(indexed) < 1e-9);
+    CHECK(failures(pgdr::check_mesh(indexed, &mesh.domain())) == "");
+  }
+}
+
 TEST_CASE("A sizing field that goes to zero ends at the minimum edge length", "[refinement]") {
   pgdr::Parameters parameters;
   parameters.min_edge_length = 1e-4;
