@@ -7,6 +7,7 @@ mutate.py check NAME PROGRAM    runs the test cases of a fault with the program 
                                 unless they fail
 mutate.py list                  one line for each fault: its name, the source of its test, its header, and whether it is among
                                 the few that every run of the tests looks at (quick) or not (slow)
+mutate.py apply                 an error unless the text of every fault occurs once in its header
 """
 import json
 import pathlib
@@ -17,11 +18,16 @@ import sys
 here = pathlib.Path(__file__).resolve().parent
 
 
-def write(fault, output):
-    source = here.parents[1] / "include" / fault["header"]
-    text = source.read_text()
+def header_with(fault):
+    """The text of the header, where the fault's occurs once."""
+    text = (here.parents[1] / "include" / fault["header"]).read_text()
     if text.count(fault["text"]) != 1:
         sys.exit(f"{fault['name']}: its text occurs {text.count(fault['text'])} times in {fault['header']}")
+    return text
+
+
+def write(fault, output):
+    text = header_with(fault)
     target = pathlib.Path(output) / fault["header"]
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(text.replace(fault["text"], fault["fault"]))
@@ -48,6 +54,9 @@ def main():
     faults = {fault["name"]: fault for fault in json.loads((here / "faults.json").read_text())}
     if len(sys.argv) == 2 and sys.argv[1] == "list":
         print("\n".join(f"{name} {fault['test']} {fault['header']} {'quick' if fault.get('quick') else 'slow'}" for name, fault in faults.items()))
+    elif len(sys.argv) == 2 and sys.argv[1] == "apply":
+        for fault in faults.values():
+            header_with(fault)
     elif len(sys.argv) == 4 and sys.argv[1] in ("write", "check") and sys.argv[2] in faults:
         {"write": write, "check": check}[sys.argv[1]](faults[sys.argv[2]], sys.argv[3])
     else:
