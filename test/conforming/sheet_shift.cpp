@@ -2,7 +2,6 @@
 // Sheets that make room for a point by passing behind flat cells.
 #include <pgdr/conforming/sheet_shift_3.h>
 
-#include <array>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -53,15 +52,21 @@ std::vector<Tr::Cell_handle> flat_cells_outside(const Mesh& mesh) {
   return flat;
 }
 
+/// A box with flat cells at its top, and what a thread needs to move sheets across them.
+struct Tilted_grid {
+  Mesh mesh = refined(tilted(gridded_box(16)));
+  Tr& tr = mesh.triangulation();
+  Mesh::Complex& complex = mesh.complex();
+  pgdr::Cavity_3<Tr> cavity{tr};
+  pgdr::Sheet_shift_3<Tr> sheets;
+};
+
 }  // namespace
 
 TEST_CASE("A sheet moves across the flat cells that keep a point out, and back", "[conforming]") {
-  Mesh mesh = refined(tilted(gridded_box(16)));
-  Tr& tr = mesh.triangulation();
-  auto& complex = mesh.complex();
-  pgdr::Cavity_3<Tr> cavity(tr);
+  Tilted_grid grid;
+  auto& [mesh, tr, complex, cavity, sheets] = grid;
   pgdr::Cavity_features_3<Tr> features;
-  pgdr::Sheet_shift_3<Tr> sheets;
   const auto before = triangles(complex);
   int blocked = 0;
   for (const auto c : flat_cells_outside(mesh)) {
@@ -90,11 +95,8 @@ TEST_CASE("A sheet moves across the flat cells that keep a point out, and back",
 }
 
 TEST_CASE("A sheet stays where a point is on its other side", "[conforming]") {
-  Mesh mesh = refined(tilted(gridded_box(16)));
-  Tr& tr = mesh.triangulation();
-  auto& complex = mesh.complex();
-  pgdr::Cavity_3<Tr> cavity(tr);
-  pgdr::Sheet_shift_3<Tr> sheets;
+  Tilted_grid grid;
+  auto& [mesh, tr, complex, cavity, sheets] = grid;
   int tried = 0;
   for (const auto c : flat_cells_outside(mesh)) {
     int i = 0;

@@ -23,7 +23,6 @@
 #include <pgdr/conforming/images_3.h>
 #include <pgdr/conforming/presence_3.h>
 #include <pgdr/conforming/sheet_repair_3.h>
-#include <pgdr/conforming/sheet_shift_3.h>
 #include <pgdr/conforming/sheet_walk_3.h>
 #include <pgdr/conforming/split_points_3.h>
 #include <pgdr/conforming/torn_features_3.h>
@@ -63,7 +62,6 @@ class Feature_refiner_3 {
   /// The cavity that this refiner works with, shared with whoever inserts volume points on the same thread.
   Cavity_3<Tr>& cavity() { return cavity_; }
   Cavity_features_3<Tr>& features() { return features_; }
-  Sheet_shift_3<Tr>& sheets() { return sheets_; }
   Complex& complex() { return complex_; }
   const Acute_neighborhood_3& acute() const { return acute_; }
 
@@ -90,12 +88,6 @@ class Feature_refiner_3 {
     const int m = index_of_fourth<Tr>(c, t.vertices);
     for (const Vertex_handle v : {c->vertex(m), tr_.mirror_vertex(c, m)})
       if (!tr_.is_infinite(v) && encroaches(complex_, t, v)) return note_encroached_subfacet(slot, v);
-  }
-  /// What was asked for pieces of a sheet is void after it was shifted. \pre the cells are still there
-  void note_shifted() {
-    for (const auto& m : sheets_.moved())
-      for (int i = 0; i < 4; ++i)
-        if (m.cell->subfacet(i) != Complex::none) request_if_encroached(m.cell->subfacet(i));
   }
   void request(bool is_subsegment, const Feature_request& r) {
     queues_.push(is_subsegment, r);
@@ -640,7 +632,6 @@ class Feature_refiner_3 {
   Cavity_3<Tr> cavity_;
   Cavity_search_3<Tr> search_;
   Cavity_features_3<Tr> features_;
-  Sheet_shift_3<Tr> sheets_;
   std::vector<Facet_star_3<Tr>> stars_;
   std::vector<std::uint32_t> made_;
   Images_3<Tr> images_;

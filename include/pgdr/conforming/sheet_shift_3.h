@@ -8,6 +8,7 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/flat_cell_3.h>
 #include <pgdr/mesh/cavity_3.h>
+#include <pgdr/mesh/conflict_walk_3.h>
 
 namespace pgdr {
 
@@ -16,7 +17,7 @@ namespace pgdr {
 /// A flat cell of four vertices of a facet has a ball that reaches far beyond the facet on both sides. A point in it deletes the cell, and the
 /// subfacets between the cell and itself with it, though it is in no equatorial ball, and nothing of the facet has to change: the cell's other
 /// two triangles cover the same part of it. With the cell on the point's side of the sheet, no subfacet is deleted
-/// (docs/theory.md, section 9). Cells may lie upon each other: the sheet moves across one after the other.
+/// (docs/theory.md, section 10). Cells may lie upon each other: the sheet moves across one after the other.
 template <class Tr>
 class Sheet_shift_3 {
  public:
@@ -62,15 +63,10 @@ class Sheet_shift_3 {
     for (int i = 0; i < 4; ++i) {
       const std::uint32_t t = c->subfacet(i);
       if (t == Complex::none) continue;
-      if (tr.is_infinite(c) || !complex.is_on_facet(c->vertex(i), complex.subfacet(t).facet) || !is_beyond(tr, c, i, p)) return -1;
+      if (tr.is_infinite(c) || !complex.is_on_facet(c->vertex(i), complex.subfacet(t).facet) || !lies_beyond(tr, c, i, p)) return -1;
       if (Cavity_3<Tr>::contains(c->neighbor(i))) found = i;
     }
     return found;
-  }
-
-  static bool is_beyond(const Tr& tr, Cell_handle c, int i, const Point& p) {
-    const auto at = [&](int k) -> const Point& { return k == i ? p : c->vertex(k)->point(); };
-    return tr.geom_traits().orientation_3_object()(at(0), at(1), at(2), at(3)) == CGAL::NEGATIVE;
   }
 
   std::vector<Moved> moved_;

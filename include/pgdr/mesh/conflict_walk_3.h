@@ -14,16 +14,18 @@ bool has_vertex_at(const Tr& tr, typename Tr::Cell_handle c, const typename Tr::
   return false;
 }
 
+/// Whether p lies beyond the i-th triangle of a finite tetrahedron.
+template <class Tr>
+bool lies_beyond(const Tr& tr, typename Tr::Cell_handle c, int i, const typename Tr::Point& p) {
+  const auto at = [&](int j) -> const typename Tr::Point& { return j == i ? p : c->vertex(j)->point(); };
+  return tr.geom_traits().orientation_3_object()(at(0), at(1), at(2), at(3)) == CGAL::NEGATIVE;
+}
+
 /// The first of the triangles of a finite tetrahedron, but for the one to `before`, that p lies beyond; -1 if there is none, and p lies inside.
 template <class Tr>
 int way_towards(const Tr& tr, typename Tr::Cell_handle c, typename Tr::Cell_handle before, const typename Tr::Point& p) {
-  const auto orientation = tr.geom_traits().orientation_3_object();
-  for (int i = 0; i < 4; ++i) {
-    if (c->neighbor(i) == before) continue;
-    const typename Tr::Point* corners[4];
-    for (int j = 0; j < 4; ++j) corners[j] = j == i ? &p : &c->vertex(j)->point();
-    if (orientation(*corners[0], *corners[1], *corners[2], *corners[3]) == CGAL::NEGATIVE) return i;
-  }
+  for (int i = 0; i < 4; ++i)
+    if (c->neighbor(i) != before && lies_beyond(tr, c, i, p)) return i;
   return -1;
 }
 

@@ -9,7 +9,6 @@
 #include <pgdr/acute/split_guard_3.h>
 #include <pgdr/acute/split_spacing_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
-#include <pgdr/conforming/sheet_shift_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 #include <pgdr/refinement/cell_classifier_3.h>
@@ -127,17 +126,20 @@ class Inside_refiner_3 {
   /// Whether all that the point would delete are subfacets before flat cells, so that their sheets pass behind these from now on.
   bool clears_flat_cells(Session& s, const Attempt& t) const {
     if (!s.obstacles().are_deleted_only()) return false;
-    Sheet_shift_3<Tr>& sheets = s.features().sheets();
-    if (!sheets.shift(complex_, tr_, s.cavity(), t.point())) return false;
-    if (!s.collect_obstacles(complex_, t.point())) {
-      s.features().note_shifted();
-      // If another point is inserted after all, they may stay.
-      for (const auto& m : sheets.moved()) s.features().fresh_cells().push_back({m.cell, m.cell->generation(), 0});
-      return true;
+    if (!s.sheets().shift(complex_, tr_, s.cavity(), t.point())) return false;
+    if (s.collect_obstacles(complex_, t.point())) {
+      s.sheets().take_back(complex_);
+      s.collect_obstacles(complex_, t.point());  // their versions are others now
+      return false;
     }
-    sheets.take_back(complex_);
-    s.collect_obstacles(complex_, t.point());
-    return false;
+    for (const auto& m : s.sheets().moved()) {
+      // What was asked for these subfacets before is void.
+      for (int i = 0; i < 4; ++i)
+        if (m.cell->subfacet(i) != Complex::none) s.features().request_if_encroached(m.cell->subfacet(i));
+      // If another point is inserted after all, the cell may stay.
+      s.features().fresh_cells().push_back({m.cell, m.cell->generation(), 0});
+    }
+    return true;
   }
 
   /// Where the first choice leaves an angle that is too small: takes the first other point that leaves none, if there is one. Its cavity

@@ -8,6 +8,7 @@
 
 #include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/conforming/feature_refiner_3.h>
+#include <pgdr/conforming/sheet_shift_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/zone_guard_3.h>
 #include <pgdr/refinement/leaf_refiner.h>
@@ -28,6 +29,7 @@ struct Leaf_worker_3 {
   Feature_refiner_3<Tr> features;
   Zone_guard_3<Tr> guard;
   Obstacles_3<Tr> obstacles;
+  Sheet_shift_3<Tr> sheets;
   Measured_star_3<Tr> star;  ///< of the point whose cavity is found, where several are compared
 };
 
@@ -68,6 +70,7 @@ class Leaf_session_3 {
   Features& features() { return worker_.features; }
   Cavity_3<Tr>& cavity() { return worker_.features.cavity(); }
   Obstacles_3<Tr>& obstacles() { return worker_.obstacles; }
+  Sheet_shift_3<Tr>& sheets() { return worker_.sheets; }
   Measured_star_3<Tr>& star() { return worker_.star; }
 
   /// Looks through the features on the cavity of p, which is found. True if one of them is an obstacle.

@@ -58,7 +58,7 @@ class Obstacles_3 {
     return !subsegments_.empty();
   }
 
-  /// Whether all of them are subfacets that the point would delete without encroaching one.
+  /// Whether all of them are subfacets that the point would delete without encroaching one. \pre they were collected, not set
   bool are_deleted_only() const { return subsegments_.empty() && !is_encroaching_; }
 
   /// What to split in the point's stead, in this order: only where there is no subsegment a subfacet, and among these
