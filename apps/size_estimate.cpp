@@ -76,12 +76,13 @@ double integral(const Domain& domain, const Volumes_3<Default_kernel>& volumes, 
   return sum;
 }
 
-/// Of the layer in which sizes grow with the distance from a surface, which samples may miss: at it they are near / (1 - slope).
+/// Of the layer in which sizes grow with the distance from a surface, which samples may miss: what touches it has near / (1 - slope), or near if that is the size farther
+/// than that away.
 double count_near(const Distance_sizing_field& field, double volume, double unit) {
   const double near = field.near() / unit, far = field.far() / unit, slope = (field.far() - field.near()) / field.reach();
-  const double touching = near / (1 - slope);
+  const double margin = field.margin() / unit, touching = margin < near ? (near - slope * margin) / (1 - slope) : near;
   if (!(touching < far)) return 0;
-  const double across = (1 / touching / touching - 1 / far / far) / (2 * slope);
+  const double across = count(margin, touching) + (1 / touching / touching - 1 / far / far) / (2 * slope);
   return std::min(field.area(unit) * across, count(volume, near));
 }
 

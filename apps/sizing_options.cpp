@@ -17,6 +17,7 @@
 #include <pgdr/sizing/edge_length.h>
 #include <pgdr/sizing/facet_sizes.h>
 #include <pgdr/sizing/grid_sizing_field.h>
+#include <pgdr/sizing/local_feature_sizes.h>
 #include <pgdr/sizing/nodal_sizing_field.h>
 
 #include "arguments.h"
@@ -57,6 +58,10 @@ void Sizing_options::add_to(CLI::App& parser) {
   parser
       .add_option("--curvature", curvature,
                   "N edges around a full turn of a curved surface, which facets that meet at less than 40 degrees stand for; away from it sizes grow by --gradation (0.5)")
+      ->type_name("N");
+  parser
+      .add_option("--cells-across", cells_across,
+                  "N edges across walls and whatever else is narrow, measured between facets of a region that face each other; away from it sizes grow by --gradation (0.5)")
       ->type_name("N");
   parser
       .add_option("--size-expression", expression,
@@ -164,8 +169,9 @@ Combined_sizing_field::Local Sizing_options::local() const {
   if (!gradation.empty()) {
     growth = parse_positive("--gradation", gradation);
     if (!(growth < 1)) throw Usage_error("--gradation must be less than 1, because nothing bounds sizes that grow faster than the distance, not " + gradation);
-    if (boxes.empty() && balls.empty() && facet_sizes.empty() && curvature.empty())
-      throw Usage_error("--gradation is of boxes, balls, markers and curvature: it needs --refine-box, --size-ball, --facet-size or --curvature");
+    if (boxes.empty() && balls.empty() && facet_sizes.empty() && curvature.empty() && cells_across.empty())
+      throw Usage_error(
+          "--gradation is of boxes, balls, markers, curvature and narrow parts: it needs --refine-box, --size-ball, --facet-size, --curvature or --cells-across");
   } else if (std::ranges::any_of(balls, [](const Sizing_ball& ball) { return ball.extent == 0; })) {
     throw Usage_error("--size-ball: a ball with a radius of 0 needs --gradation, because no circumcenter is exactly there");
   }
@@ -177,6 +183,7 @@ void Sizing_options::check() const {
   if (!near_surface.empty()) parse_sizes_near_surface(near_surface);
   for (const std::string& text : facet_sizes) parse_facet_size(text);
   if (!curvature.empty()) parse_positive("--curvature", curvature);
+  if (!cells_across.empty()) parse_positive("--cells-across", cells_across);
   if (!expression.empty()) parse_size_expression(expression);
   if (!field_file.empty()) parse_field(field_file);
 }
@@ -193,6 +200,8 @@ Combined_sizing_field Sizing_options::field(const Domain& domain) const {
   for (const std::string& text : facet_sizes) by_distance.push_back(sizes_on(domain, parse_facet_size(text), growth, places.outer().radius()));
   if (!curvature.empty())
     std::ranges::move(curvature_sizes(domain, parse_positive("--curvature", curvature), growth, places.outer().radius()), std::back_inserter(by_distance));
+  if (!cells_across.empty())
+    std::ranges::move(local_feature_sizes(domain, parse_positive("--cells-across", cells_across), growth, places.outer().radius()), std::back_inserter(by_distance));
   std::vector<Combined_sizing_field::Function> functions;
   if (!expression.empty()) functions.push_back(parse_size_expression(expression));
   if (!field_file.empty()) functions.push_back(field_of(field_file));

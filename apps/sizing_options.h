@@ -22,6 +22,7 @@ struct Sizing_options {
   std::vector<std::string> size_balls;
   std::string near_surface;
   std::vector<std::string> facet_sizes;
+  std::string cells_across;
   std::string curvature;
   std::string expression;
   std::string field_file;

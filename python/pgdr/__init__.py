@@ -236,6 +236,7 @@ def mesh(
     size: Size = None,
     facet_sizes: Mapping[int | str, float] | None = None,
     curvature: float | None = None,
+    cells_across: float | None = None,
     gradation: float = 0.5,
     markers: Sequence[int] | None = None,
     regions: Iterable[tuple] | None = None,
@@ -269,6 +270,8 @@ def mesh(
         Upper bounds of the circumradius on facets; away from them the bound grows by `gradation` for each unit of distance.
     curvature : float
         So many edges around a full turn of a curved surface, which facets that meet at less than 40 degrees stand for; away from it the bound grows, too.
+    cells_across : float
+        So many edges across walls and whatever else is narrow, between facets of a region that face each other; away from it the bound grows, too.
     radius_edge_ratio : float, at least 2
         Upper bound of circumradius over shortest edge.
     min_dihedral : float
@@ -317,6 +320,7 @@ def mesh(
         size=size,
         facet_sizes=None if facet_sizes is None else dict(facet_sizes),
         curvature=curvature,
+        cells_across=cells_across,
         gradation=gradation,
         radius_edge_ratio=radius_edge_ratio,
         min_dihedral=min_dihedral,

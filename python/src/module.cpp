@@ -239,8 +239,8 @@ Plc simplified(const Plc& plc, double tolerance, double coplanar_tolerance) {
   return pgdr::simplify_within(plc, tolerance, coplanar_tolerance);
 }
 
-Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature, double gradation, pgdr::Parameters p, const std::string& placement,
-               double tolerance, unsigned threads, const py::object& progress) {
+Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature,
+               const std::optional<double>& cells_across, double gradation, pgdr::Parameters p, const std::string& placement, double tolerance, unsigned threads, const py::object& progress) {
   require_same_process();
   p.placement = placement_of(placement);
   if (p.max_memory == 0) p.max_memory = pgdr::attainable_memory_bytes().value_or(0) / 10 * 9;
@@ -263,7 +263,7 @@ Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet
   Mesh mesh;
   {
     // Made and destroyed with the GIL; called without.
-    const pgdr::Combined_sizing_field sizing = pgdr_python::sizing_of(size, facet_sizes, curvature, gradation, domain, errors);
+    const pgdr::Combined_sizing_field sizing = pgdr_python::sizing_of(size, facet_sizes, curvature, cells_across, gradation, domain, errors);
     const auto look = [&] {
       if (progress.is_none()) return;
       std::optional<pgdr::Progress> now;
@@ -470,8 +470,8 @@ void add_mesh(py::module_& m) {
           py::arg("plc"), py::arg("radius_edge_ratio"), py::arg("coplanar_tolerance"), py::arg("triangulate"));
   m.def(
       "mesh",
-      [](const Plc& plc, const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature, double gradation, double radius_edge_ratio, double min_dihedral,
-         std::size_t optimize, const std::string& placement, double tolerance, double coplanar_tolerance, bool triangulate, double min_edge_length,
+      [](const Plc& plc, const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature,
+         const std::optional<double>& cells_across, double gradation, double radius_edge_ratio, double min_dihedral, std::size_t optimize, const std::string& placement, double tolerance, double coplanar_tolerance, bool triangulate, double min_edge_length,
          std::size_t max_vertices, std::size_t max_memory, double time_limit, unsigned threads, const py::object& progress) {
         pgdr::Parameters p;
         p.radius_edge_ratio = radius_edge_ratio;
@@ -483,9 +483,9 @@ void add_mesh(py::module_& m) {
         p.max_vertices = max_vertices;
         p.max_memory = max_memory;
         p.time_limit = time_limit;
-        return make_mesh(plc, size, facet_sizes, curvature, gradation, p, placement, tolerance, threads, progress);
+        return make_mesh(plc, size, facet_sizes, curvature, cells_across, gradation, p, placement, tolerance, threads, progress);
       },
-      py::arg("plc"), py::kw_only(), py::arg("size"), py::arg("facet_sizes"), py::arg("curvature"), py::arg("gradation"), py::arg("radius_edge_ratio"), py::arg("min_dihedral"),
+      py::arg("plc"), py::kw_only(), py::arg("size"), py::arg("facet_sizes"), py::arg("curvature"), py::arg("cells_across"), py::arg("gradation"), py::arg("radius_edge_ratio"), py::arg("min_dihedral"),
       py::arg("optimize"), py::arg("placement"), py::arg("tolerance"), py::arg("coplanar_tolerance"), py::arg("triangulate"), py::arg("min_edge_length"),
       py::arg("max_vertices"), py::arg("max_memory"), py::arg("time_limit"), py::arg("threads"), py::arg("progress"));
 }

@@ -18,6 +18,7 @@
 
 #include <pgdr/sizing/curvature_sizes.h>
 #include <pgdr/sizing/facet_sizes.h>
+#include <pgdr/sizing/local_feature_sizes.h>
 #include <pgdr/sizing/grid_sizing_field.h>
 #include <pgdr/sizing/nodal_sizing_field.h>
 
@@ -80,7 +81,7 @@ pgdr::Sizing_grid grid_of(const std::array<double, 3>& lower, const std::array<d
 
 }  // namespace
 
-pgdr::Combined_sizing_field sizing_of(const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature, double gradation,
+pgdr::Combined_sizing_field sizing_of(const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature, const std::optional<double>& cells_across, double gradation,
                                     const pgdr::Domain_3<pgdr::Default_kernel>& domain, const std::shared_ptr<First_error>& errors) {
   pgdr::Uniform_sizing_field everywhere;
   std::vector<pgdr::Combined_sizing_field::Function> functions;
@@ -106,13 +107,15 @@ pgdr::Combined_sizing_field sizing_of(const py::object& size, const py::object& 
         throw py::value_error("facet_sizes, '" + name + "': " + error.what());
       }
     }
-  if (curvature) {
+  const auto add = [&](const char* name, const std::optional<double>& number, const auto& fields_for) {
     try {
-      std::ranges::move(pgdr::curvature_sizes(domain, *curvature, gradation, everywhere.radius()), std::back_inserter(by_distance));
+      if (number) std::ranges::move(fields_for(domain, *number, gradation, everywhere.radius()), std::back_inserter(by_distance));
     } catch (const std::invalid_argument& error) {
-      throw py::value_error(std::string("curvature: ") + error.what());
+      throw py::value_error(std::string(name) + ": " + error.what());
     }
-  }
+  };
+  add("curvature", curvature, pgdr::curvature_sizes);
+  add("cells_across", cells_across, pgdr::local_feature_sizes);
   return pgdr::Combined_sizing_field(pgdr::Combined_sizing_field::Local(everywhere, {}, {}, pgdr::Combined_sizing_field::Local::no_gradation), std::move(by_distance),
                                    std::move(functions));
 }

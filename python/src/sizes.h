@@ -29,8 +29,9 @@ class First_error {
 };
 
 /// The sizing field of the arguments `size` (None, a number, a function of x, y and z, or a Grid) and `facet_sizes` (None, or a dictionary from
-/// markers, numbers or names, to sizes) and `curvature` (edges around a full turn) of `mesh`. Functions are called with the GIL held. \pre holds the GIL
-pgdr::Combined_sizing_field sizing_of(const pybind11::object& size, const pybind11::object& facet_sizes, const std::optional<double>& curvature, double gradation,
+/// markers, numbers or names, to sizes), `curvature` (edges around a full turn) and `cells_across` (edges
+/// across what is narrow) of `mesh`. Functions are called with the GIL held. \pre holds the GIL
+pgdr::Combined_sizing_field sizing_of(const pybind11::object& size, const pybind11::object& facet_sizes, const std::optional<double>& curvature, const std::optional<double>& cells_across, double gradation,
                                     const pgdr::Domain_3<pgdr::Default_kernel>& domain, const std::shared_ptr<First_error>& errors);
 
 /// Adds the classes Grid and Nodes.

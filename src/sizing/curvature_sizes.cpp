@@ -19,18 +19,13 @@ namespace {
 
 using Domain = Domain_3<Default_kernel>;
 
-/// Two triangles of a curved surface.
-struct Bend {
-  double size;
-  std::array<domain_detail::Sheet, 2> sheets;
-};
-
+/// The triangles of curved surfaces.
 /// \param size_per_radius sizes in units of the radius of curvature
-std::vector<Bend> bends(const Domain& domain, double size_per_radius) {
+std::vector<Sized_triangle> bends(const Domain& domain, double size_per_radius) {
   const domain_detail::Facet_edges edges(domain);
   const std::vector<double> angles = dihedral_angles_3(domain, edges);
   const auto point = [&](Index v) { return to_vec(domain.vertices[v]); };
-  std::vector<Bend> result;
+  std::vector<Sized_triangle> result;
   for (std::size_t s = 0; s < domain.segments.size(); ++s) {
     const double turn = 180 - angles[s];
     const auto sheets = edges.sheets(s);
@@ -41,7 +36,8 @@ std::vector<Bend> bends(const Domain& domain, double size_per_radius) {
       for (const Index v : domain.facets[sheet.facet].triangles[sheet.triangle])
         if (v != a && v != b) height = std::min(height, std::sqrt(squared_distance_to_line(point(v), point(a), point(b))));
     const double size = unit_of(domain) * size_per_radius * height / (turn * std::numbers::pi / 180);
-    if (size > 0 && std::isfinite(size)) result.push_back({size, {sheets[0], sheets[1]}});
+    if (!(size > 0 && std::isfinite(size))) continue;
+    for (const auto& sheet : sheets) result.push_back({facet_triangle_of(domain, domain.facets[sheet.facet].triangles[sheet.triangle]), size});
   }
   return result;
 }
@@ -50,16 +46,7 @@ std::vector<Bend> bends(const Domain& domain, double size_per_radius) {
 
 std::vector<Distance_sizing_field> curvature_sizes(const Domain& domain, double edges_per_turn, double gradation, double largest) {
   if (!(edges_per_turn > 0 && std::isfinite(edges_per_turn))) throw std::invalid_argument("the number of edges around a turn has to be positive and finite");
-  std::vector<Bend> all = bends(domain, 2 * std::numbers::pi / edges_per_turn / mean_edge);
-  std::ranges::stable_sort(all, {}, &Bend::size);
-  std::vector<Distance_sizing_field> fields;
-  for (std::size_t first = 0, end = 0; first < all.size() && all[first].size < largest; first = end) {
-    std::vector<Distance_sizing_field::Triangle> triangles;
-    for (; end < all.size() && all[end].size <= std::numbers::sqrt2 * all[first].size; ++end)
-      for (const auto& sheet : all[end].sheets) triangles.push_back(facet_triangle_of(domain, domain.facets[sheet.facet].triangles[sheet.triangle]));
-    fields.push_back(sizes_around(domain, triangles, all[first].size, gradation, largest));
-  }
-  return fields;
+  return sizes_around_each(domain, bends(domain, 2 * std::numbers::pi / edges_per_turn / mean_edge), gradation, largest);
 }
 
 }  // namespace pgdr

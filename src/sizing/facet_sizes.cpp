@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -17,9 +18,9 @@ namespace {
 
 /// What `sizes_around` says, as a `Distance_sizing_field` takes it.
 struct Growth {
-  Growth(const Domain_3<Default_kernel>& domain, double radius, double gradation, double largest) {
+  Growth(const Domain_3<Default_kernel>& domain, double radius, double gradation, double largest, double margin = 0) {
     if (!(0 < gradation && gradation < 1)) throw std::invalid_argument("the gradation must be above 0 and below 1");
-    near = (1 - gradation) * radius;
+    near = radius - gradation * std::max(0.0, radius - margin);
     // No circumcenter that counts is farther away than that.
     far = std::max(near, std::min(largest, near + 2 * gradation * unit_of(domain) * domain.diagonal));
     reach = far > near ? (far - near) / gradation : 1;
@@ -70,9 +71,23 @@ std::vector<int> markers_named(const Domain_3<Default_kernel>& domain, const std
 }
 
 Distance_sizing_field sizes_around(const Domain_3<Default_kernel>& domain, const std::vector<Distance_sizing_field::Triangle>& triangles, double radius,
-                                   double gradation, double largest) {
-  const Growth growth(domain, radius, gradation, largest);
-  return Distance_sizing_field(triangles, growth.near, growth.far, growth.reach);
+                                   double gradation, double largest, double margin) {
+  const Growth growth(domain, radius, gradation, largest, margin);
+  return Distance_sizing_field(triangles, growth.near, growth.far, growth.reach, margin);
+}
+
+std::vector<Distance_sizing_field> sizes_around_each(const Domain_3<Default_kernel>& domain, std::vector<Sized_triangle> triangles, double gradation, double largest,
+                                                     double margin_per_radius) {
+  std::erase_if(triangles, [](const Sized_triangle& t) { return !Distance_sizing_field::has_area(t.triangle); });
+  std::ranges::stable_sort(triangles, {}, &Sized_triangle::radius);
+  std::vector<Distance_sizing_field> fields;
+  std::vector<Distance_sizing_field::Triangle> alike;
+  for (std::size_t first = 0, end = 0; first < triangles.size() && triangles[first].radius < largest; first = end) {
+    alike.clear();
+    for (; end < triangles.size() && triangles[end].radius <= std::numbers::sqrt2 * triangles[first].radius; ++end) alike.push_back(triangles[end].triangle);
+    fields.push_back(sizes_around(domain, alike, triangles[first].radius, gradation, largest, margin_per_radius * triangles[end - 1].radius));
+  }
+  return fields;
 }
 
 Distance_sizing_field facet_sizes(const Domain_3<Default_kernel>& domain, const std::vector<int>& markers, double radius, double gradation, double largest) {

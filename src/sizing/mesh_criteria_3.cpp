@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pgdr/sizing/mesh_criteria_3.h>
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <pgdr/sizing/curvature_sizes.h>
 #include <pgdr/sizing/facet_sizes.h>
+#include <pgdr/sizing/local_feature_sizes.h>
 
 namespace pgdr {
 namespace {
@@ -35,6 +39,10 @@ Combined_sizing_field sizing_of(const Mesh_criteria_3& criteria, const Domain_3<
   for (const auto& [marker, length] : criteria.curve_sizes) bound_edges(length, {marker});
   bound_facets(criteria.facet_size, {});
   for (const auto& [marker, radius] : criteria.patch_sizes) bound_facets(radius, {marker});
+
+  const auto add = [&fields](std::vector<Distance_sizing_field> more) { std::ranges::move(more, std::back_inserter(fields)); };
+  if (criteria.edges_per_turn != 0) add(curvature_sizes(domain, criteria.edges_per_turn, criteria.gradation, largest));
+  if (criteria.cells_across != 0) add(local_feature_sizes(domain, criteria.cells_across, criteria.gradation, largest));
 
   std::vector<Combined_sizing_field::Function> functions;
   if (const auto& field = criteria.cell_size.field()) functions = Combined_sizing_field::of(field).functions();

@@ -98,6 +98,8 @@ TEST_CASE("sizes by expression, edge length and volume are bounds", "[apps]") {
   CHECK(mesh_of("--size-expression 0.4 --size 0.1").tetrahedra.size() == fine);
   CHECK(mesh_of("--edge-length 0.135").tetrahedra.size() == fine);
   CHECK(mesh_of("--size 0.1 --curvature 12").tetrahedra.size() == fine);  // a cube is not curved
+  CHECK(mesh_of("--size 0.1 --cells-across 4").tetrahedra.size() == fine);  // it is four edges of 0.25 wide
+  CHECK(mesh_of("--cells-across 7.5").tetrahedra.size() > fine / 2);
   const std::size_t graded = mesh_of("--size-expression 'min(0.4, 0.1+0.3*x)'").tetrahedra.size();
   CHECK((graded < fine / 2 && graded > mesh_of("--size 0.4").tetrahedra.size()));
   sandbox.write("back.vti",
@@ -129,6 +131,7 @@ TEST_CASE("sizes that make no sense are refused by name", "[apps]") {
   fails("--edge-length 0", "--edge-length");
   fails("--max-volume=-1", "--max-volume");
   fails("--curvature 0", "--curvature");
+  fails("--cells-across 0", "--cells-across");
   fails("--gradation 0.3", "--curvature");
   fails("--size-field back.vtu", "FILE:ARRAY");
   fails("--size-field back.txt:h", ".vti");

@@ -82,6 +82,14 @@ def test_sizes():
     assert edges.max() <= 0.1 * (1 + 1e-9)
 
 
+def test_cells_across():
+    plc = pgdr.Plc(CORNERS, SIDES)
+    sizes = [len(pgdr.mesh(plc, cells_across=n).tetrahedra) for n in (2, 6)]
+    assert sizes[1] > 5 * sizes[0]
+    with pytest.raises(ValueError, match="cells_across"):
+        pgdr.mesh(plc, cells_across=-1)
+
+
 def test_curvature():
     angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
     rings = [np.column_stack([np.cos(angles), np.sin(angles), np.full(48, z)]) for z in (0.0, 1.0)]

@@ -11,10 +11,11 @@
 
 namespace pgdr {
 
-/// A sizing field by the distance from triangles, or segments: `near` on them, `far` at the distance `reach` and beyond, linear in between.
+/// A sizing field by the distance from triangles, or segments: `near` up to the distance `margin` from them, `far` at the distance `reach` from there and
+/// beyond, linear in between.
 ///
 /// Sizes are those of circumcenters: a tetrahedron that touches them has a circumradius of at most near / (1 - slope), with the
-/// slope (far - near) / reach, and only where that is below 1 is there a bound at all.
+/// slope (far - near) / reach, and only where that is below 1 is there a bound at all; of at most near, if the margin is no less.
 ///
 /// Distances are those of double arithmetic (CGAL's AABB tree), the same on every thread. Copies share the tree.
 class Distance_sizing_field {
@@ -22,11 +23,14 @@ class Distance_sizing_field {
   using Triangle = std::array<std::array<double, 3>, 3>;
   using Segment = std::array<std::array<double, 3>, 2>;
 
-  /// Throws `std::invalid_argument` unless 0 < near <= far < infinity, far - near < reach < infinity and there is a triangle with an area.
-  Distance_sizing_field(const std::vector<Triangle>& triangles, double near, double far, double reach);
+  /// Throws `std::invalid_argument` unless 0 < near <= far < infinity, far - near < reach < infinity, 0 <= margin < infinity and there is a triangle with an area.
+  Distance_sizing_field(const std::vector<Triangle>& triangles, double near, double far, double reach, double margin = 0);
+
+  /// Whether distances are measured from it; a thinner one has those of its neighbors.
+  static bool has_area(const Triangle& triangle);
 
   /// The same from segments. Throws as well unless there is one with a length.
-  static Distance_sizing_field from_segments(const std::vector<Segment>& segments, double near, double far, double reach);
+  static Distance_sizing_field from_segments(const std::vector<Segment>& segments, double near, double far, double reach, double margin = 0);
 
   template <class Point_3>
   double operator()(const Point_3& p) const {
@@ -46,6 +50,7 @@ class Distance_sizing_field {
   double near() const { return near_; }
   double far() const { return far_; }
   double reach() const { return reach_; }
+  double margin() const { return margin_; }
   /// Of all triangles together, in squares of this unit of length; 0 of segments.
   double area(double unit = 1) const;
 
@@ -62,11 +67,11 @@ class Distance_sizing_field {
   template <class Objects>
   struct Tree_of;
 
-  /// Without a tree yet.
-  Distance_sizing_field(double near, double far, double reach);
+  Distance_sizing_field() = default;
+  void set_sizes(double near, double far, double reach, double margin);
 
   std::shared_ptr<const Tree> tree_;
-  double near_, far_, reach_;
+  double near_ = 0, far_ = 0, reach_ = 0, margin_ = 0;
 };
 
 }  // namespace pgdr

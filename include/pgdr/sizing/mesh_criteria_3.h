@@ -52,6 +52,9 @@ struct Mesh_criteria_3 {
   std::map<int, double> curve_sizes{};  ///< `edge_size` of the segments with these markers
   std::map<int, double> patch_sizes{};  ///< `facet_size` of the facets with these markers
 
+  double edges_per_turn = 0;  ///< around a curved surface, see `curvature_sizes`; 0: no bound
+  double cells_across = 0;    ///< what is narrow, see `local_feature_sizes`; 0: no bound
+
   double cell_radius_edge_ratio = 2;  ///< 2 or more, see `Parameters::radius_edge_ratio`
   double gradation = 0.5;             ///< above 0 and below 1
 };
