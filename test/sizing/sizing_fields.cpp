@@ -112,6 +112,9 @@ TEST_CASE("sizes by the distance from triangles", "[sizing]") {
   CHECK(sizing(Point(0.2, 0.2, 4.5)) == Approx(0.2));
   CHECK(sizing(Point(3, 3, 3)) == 0.5);
   CHECK(sizing.distance({3, 0, 0}) == Approx(2));
+  const pgdr::Distance_sizing_field wide(triangles, 0.1, 0.5, 2, 0.5);
+  CHECK(wide(Point(0.2, 0.2, 0.5)) == 0.1);
+  CHECK(wide(Point(0.2, 0.2, 1.5)) == Approx(0.3));
   const pgdr::Combined_sizing_field both(pgdr::Combined_sizing_field::Local(pgdr::Uniform_sizing_field(0.25)), {sizing});
   CHECK(both(Point(0.2, 0.2, 0)) == 0.1);
   CHECK(both(Point(0.2, 0.2, 1)) == 0.25);
@@ -119,6 +122,7 @@ TEST_CASE("sizes by the distance from triangles", "[sizing]") {
   using Field = pgdr::Distance_sizing_field;
   CHECK_THROWS_AS(Field({}, 0.1, 0.5, 2), std::invalid_argument);
   CHECK_THROWS_AS(Field({triangles[2]}, 0.1, 0.5, 2), std::invalid_argument);
+  CHECK_THROWS_AS(Field(triangles, 0.1, 0.5, 2, -1), std::invalid_argument);
   for (const auto& [near, far, reach] : {std::array{0.0, 1.0, 1.0}, {2, 1, 1}, {1, infinity, 1}, {1, 2, 0}, {1, 2, infinity}, {1, 2, 1}, {not_a_number, 1, 1}})
     CHECK_THROWS_AS(Field(triangles, near, far, reach), std::invalid_argument);
 }
