@@ -2,12 +2,15 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/conforming/initial_complex_3.h>
+#include <pgdr/conforming/sheet_walk_3.h>
 #include <pgdr/domain/make_domain_3.h>
 
 #include "catch.h"
@@ -16,12 +19,21 @@
 #include "seeded_random.h"
 
 using namespace pgdr_test;
+using pgdr::Vec_3;
 
 namespace {
 
 using K = pgdr::Default_kernel;
 using Tr = pgdr::Mesh_triangulation_3<K>;
 using Complex = pgdr::Constraint_complex_3<Tr>;
+
+/// A pyramid whose lid is a needle of 1e-4 radians, bent at the middle of a long side by `bend`. Its length is 10.
+Plc bent_needle(double bend) {
+  Plc plc;
+  for (const auto& [x, y, z] : {std::array{0.0, 0.0, 0.0}, {10, 0, 0}, {10, 1e-3, 0}, {2, 2e-4, bend}, {5, 0.3, -4}}) plc.vertices.emplace_back(x, y, z);
+  for (const auto& corners : {std::array<pgdr::Index, 3>{0, 1, 3}, {3, 1, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}) plc.facets.push_back({{{corners.begin(), corners.end()}}, {}, 0});
+  return plc;
+}
 
 /// The complex of a PLC over the triangulation of its vertices, nothing recovered.
 struct Initial {
@@ -247,4 +259,23 @@ TEST_CASE("Distances to small angles", "[conforming]") {
   const pgdr::Acute_neighborhood_3 none(pgdr::make_domain_3(tilted(box())));
   for (pgdr::Index v = 0; v < 8; ++v) CHECK(!none.is_acute_vertex(v));
   CHECK(!none.contains({0, 0, 0}, 1e9));
+}
+
+TEST_CASE("What is in a bent facet stays in it on the plane, however narrow it is", "[conforming]") {
+  std::size_t tried = 0;
+  for (const double bend : {1e-6, -3e-6, 5e-6}) {
+    const Initial initial(tilted(bent_needle(bend)));
+    for (const std::uint32_t t : initial.subfacets()) {
+      const auto& subfacet = initial.complex.subfacet(t);
+      if (!initial.complex.is_bent(subfacet.facet)) continue;
+      // Near the tip of the needle, which is narrower than the bend there.
+      const Vec_3 tip = pgdr::position(subfacet.vertices[0]), middle = pgdr::barycenter(subfacet), in = tip + 0.01 * (middle - tip);
+      const Vec_3 m = initial.complex.on_plane(subfacet.facet, in);
+      CHECK(std::abs(dot(m - pgdr::to_vec(initial.domain.facets[subfacet.facet].origin), initial.complex.plane(subfacet.facet).normal())) < 1e-12);
+      CHECK(pgdr::is_in_subfacet(initial.complex, subfacet, Tr::Point(m.x, m.y, m.z)));
+      CHECK(length(initial.complex.on_sheet(t, m) - in) < 1e-12);
+      ++tried;
+    }
+  }
+  CHECK(tried >= 6);
 }

@@ -115,6 +115,10 @@ class Constraint_complex_3 {
   /// How far they are off it at most; 0 if that is rounding only.
   double bend(Index facet) const { return bends_[facet]; }
 
+  /// Moves a point next to a facet onto its plane. A bent facet may be narrower than it is off the plane: across that distance nothing may move sideways, or what is in
+  /// the facet comes out of it.
+  Vec_3 on_plane(Index facet, const Vec_3& p) const { return is_bent(facet) ? planes_[facet].project_along_axis(p) : planes_[facet].project(p); }
+
   /// Where a point of a facet's plane that is in a subfacet goes: onto the subfacet, where the vertices of a fused facet are off its plane. If
   /// all points were in the plane there would be a step along its segments, as high as these are off.
   Vec_3 on_sheet(std::uint32_t i, const Vec_3& m) const {

@@ -34,6 +34,12 @@ class Facet_plane_3 {
     return q;
   }
 
+  /// Moves p along the dominant axis onto the plane: for `orientation` it stays where it is.
+  Vec_3 project_along_axis(Vec_3 p) const {
+    p[axis_] -= dot(p - origin_, normal_) / normal_[axis_];
+    return p;
+  }
+
   /// Moves m, a point of the plane, along the dominant axis onto a triangle that it is in as seen along that axis. What is
   /// interpolated is how far the corners are off the plane, which keeps rounding small.
   Vec_3 lift(Vec_3 m, const Vec_3& a, const Vec_3& b, const Vec_3& c) const {

@@ -390,7 +390,7 @@ class Feature_refiner_3 {
       return at.subsegment != Complex::none && !is_in_the_way(complex_.subsegment(at.subsegment), t, Point(m.x, m.y, m.z));
     };
     if (is_beside()) {
-      m = complex_.plane(t.facet).project(point_before(complex_.subsegment(at.subsegment), t, m));
+      m = complex_.on_plane(t.facet, point_before(complex_.subsegment(at.subsegment), t, m));
       at = walk_in_sheet(complex_, slot, Point(m.x, m.y, m.z), territory());
       if (is_beside()) return Split_outcome::refused;
     }

@@ -52,7 +52,7 @@ class Images_3 {
     for (const std::uint32_t t : around)
       if (std::exchange(facet, complex_.subfacet(t).facet) != complex_.subfacet(t).facet)
         acute_.wedges().for_each_image(facet, position(v), distance, is_usual, [&](const Mirror_image& i) {
-          if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.plane(i.on.index).project(i.at), v->insertion_radius(), is_usual});
+          if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.on_plane(i.on.index, i.at), v->insertion_radius(), is_usual});
         });
     if (v->in_dimension() == 1 && is_alone()) add_on_segments(v, v->index(), v->insertion_radius());
   }

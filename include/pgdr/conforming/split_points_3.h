@@ -40,7 +40,7 @@ class Split_points_3 {
     // Off the center of cocircular vertices, or the next points would be cocircular again.
     Vec_3 m = reason == Split_reason::flat ? towards_centroid(slot, 0.2) : circumcenter(slot);
     if (const Index v = ball_around(slot, m); v != Protected_balls_3::none) m = acute_.balls().on_sphere(v, m);
-    return complex_.plane(complex_.subfacet(slot).facet).project(m);
+    return complex_.on_plane(complex_.subfacet(slot).facet, m);
   }
 
   /// Where a subsegment may be split for another reason: at a share of its length, but from an acute corner on at its shell only.
@@ -52,7 +52,7 @@ class Split_points_3 {
 
   /// The same of a subfacet: at a share of the way from its circumcenter to its centroid.
   Vec_3 on_subfacet(std::uint32_t slot, double share) const {
-    return complex_.plane(complex_.subfacet(slot).facet).project(towards_centroid(slot, share));
+    return complex_.on_plane(complex_.subfacet(slot).facet, towards_centroid(slot, share));
   }
 
   /// The midpoint of the longest edge of a subfacet, on its facet's plane, and the subsegment that this edge is, or none.
@@ -66,7 +66,7 @@ class Split_points_3 {
       if (squared_length(i) > squared_length(longest)) longest = i;
     const Vec_3 m = 0.5 * (position(t.vertices[(longest + 1) % 3]) + position(t.vertices[(longest + 2) % 3]));
     const std::uint32_t n = t.neighbors[longest];
-    return {complex_.plane(t.facet).project(m), n & Complex::subsegment_bit ? n & ~Complex::subsegment_bit : Complex::none};
+    return {complex_.on_plane(t.facet, m), n & Complex::subsegment_bit ? n & ~Complex::subsegment_bit : Complex::none};
   }
 
   /// Whether all of a subsegment lies in the protected ball of one of its ends: it is not split.

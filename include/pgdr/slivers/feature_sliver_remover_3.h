@@ -136,7 +136,7 @@ class Feature_sliver_remover_3 {
       const int k = CGAL::Triangulation_utils_3::next_around_edge(d->index(v), d->index(w));
       const std::uint32_t t = d->subfacet(k);
       if (t == Complex::none) continue;
-      places_.push_back({complex_.subfacet_id(t), false, complex_.plane(complex_.subfacet(t).facet).project(0.5 * (position(v) + position(w)))});
+      places_.push_back({complex_.subfacet_id(t), false, complex_.on_plane(complex_.subfacet(t).facet, 0.5 * (position(v) + position(w)))});
       list_places_on(t);
     } while (++d != done);
   }
