@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -129,9 +128,10 @@ class Widths {
 std::vector<Distance_sizing_field> local_feature_sizes(const Domain& domain, double cells_across, double gradation, double largest) {
   if (!(cells_across > 0 && std::isfinite(cells_across))) throw std::invalid_argument("the number of cells across has to be positive and finite");
   const double unit = unit_of(domain), size_per_width = 1 / cells_across / mean_edge;
+  const double most = std::min(largest / unit / size_per_width, domain.diagonal);
   const Widths widths(domain);
   std::vector<std::vector<Piece>> pieces(widths.triangles());
-  parallel_for(0, pieces.size(), [&](std::size_t t) { pieces[t] = widths.pieces(t, std::min(largest / unit / size_per_width, domain.diagonal)); });
+  parallel_for(0, pieces.size(), [&](std::size_t t) { pieces[t] = widths.pieces(t, most); });
   std::vector<Sized_triangle> sized;
   for (const auto& of_triangle : pieces)
     for (const auto& [c, width] : of_triangle) sized.push_back({{to_array(unit * c[0]), to_array(unit * c[1]), to_array(unit * c[2])}, unit * width * size_per_width});
