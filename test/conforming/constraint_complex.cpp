@@ -12,10 +12,12 @@
 #include <pgdr/conforming/initial_complex_3.h>
 #include <pgdr/conforming/sheet_walk_3.h>
 #include <pgdr/domain/make_domain_3.h>
+#include <pgdr/io/read_plc.h>
 
 #include "catch.h"
 #include "conforming/consistency.h"
 #include "conforming/gridded_box.h"
+#include "inputs.h"
 #include "seeded_random.h"
 
 using namespace pgdr_test;
@@ -85,6 +87,8 @@ TEST_CASE("A box that is its own hull gets no box around it", "[conforming]") {
   CHECK(pgdr::is_box(pgdr::make_domain_3(box())));
   CHECK(pgdr::is_box(pgdr::make_domain_3(gridded_box(3))));
   CHECK(!pgdr::is_box(pgdr::make_domain_3(tilted(box()))));
+  // The normal of a side that is tilted by a rounding error is an axis, and yet no point in its middle is on the hull.
+  CHECK(!pgdr::is_box(pgdr::make_domain_3(pgdr::read_plc(data_file("../test/corpus/tilted_plate.poly")))));
   Plc two = box();
   add_box(two, {2, 0, 0}, {3, 1, 1});
   CHECK(!pgdr::is_box(pgdr::make_domain_3(two)));

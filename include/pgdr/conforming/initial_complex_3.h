@@ -19,7 +19,8 @@
 
 namespace pgdr {
 
-/// Whether the domain's own boundary is its bounding box: six axis-aligned sides, each covered by facets.
+/// Whether the domain's own boundary is its bounding box: six axis-aligned sides, each covered by facets. Exactly: of a side that is
+/// bent or tilted by no more than rounding, the hull would be whatever points lie farthest out.
 template <class K>
 bool is_box(const Domain_3<K>& domain) {
   double covered[3][2] = {};
@@ -29,10 +30,10 @@ bool is_box(const Domain_3<K>& domain) {
   for (const auto& f : domain.facets)
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      if (std::abs(f.normal[k]) != 1) continue;
       const bool low = f.origin[k] == domain.lower[k], high = f.origin[k] == domain.upper[k];
       if (!low && !high) continue;
       for (const auto& t : f.triangles) {
+        if (std::ranges::any_of(t, [&](auto v) { return to_vec(domain.vertices[v])[i] != f.origin[k]; })) continue;
         const Vec_3 a = to_vec(domain.vertices[t[0]]);
         covered[i][high] +=
             0.5 * length(cross(to_vec(domain.vertices[t[1]]) - a, to_vec(domain.vertices[t[2]]) - a));
