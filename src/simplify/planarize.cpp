@@ -182,8 +182,11 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
       const Low_corners low = low_corners(plane, input, lowest * plane.tolerance);
       concerned = low.facets;
       if (guard) guard->add_sharpened(plane, concerned);
-      for (const Input_problem& problem : validate_domain_3(plane, input.facets.size()))
+      for (const Input_problem& problem : validate_domain_3(plane, input.facets.size())) {
+        // Where nothing has moved that stays, whatever else is given up: dirty files have thousands of these.
+        if (!problem.facets.empty() && planarizer.leaves(problem.facets, points)) return std::nullopt;
         concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
+      }
       if (concerned.empty()) return Flattened{without_low_vertices(std::move(result), plane, low), planarizer.report(points), low.some_inside()};
     } catch (const Input_error& error) {
       for (const Input_problem& problem : error.problems())

@@ -56,6 +56,13 @@ class Planarizer {
                       [](const Vec_3& a, const Vec_3& b) { return squared_distance(a, b) == 0; });
   }
 
+  /// Whether these leave the facets that some input facets are part of where they are.
+  bool leaves(const std::vector<Index>& input_facets, const std::vector<Vec_3>& points) const {
+    return std::ranges::all_of(input_facets, [&](Index i) {
+      return std::ranges::all_of(facets_[facet_of_input_[i]], [&](Index v) { return squared_distance(points[v], points_[v]) == 0; });
+    });
+  }
+
   /// Where the points should be.
   std::vector<Vec_3> solution() {
     // Who moves too far is seen after a step or two. With the tolerance of noise there are few rounds.

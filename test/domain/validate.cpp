@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "catch.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/summarize_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
@@ -54,6 +58,23 @@ TEST_CASE("facets that pass through each other") {
   const auto first = validate_domain_3(make_domain_3(plc), 1);
   REQUIRE(first.size() == 1);
   CHECK(first[0].message.find("4 pairs in all") != std::string::npos);
+}
+
+TEST_CASE("of many facets that intersect the first hundred pairs have a place") {
+  Plc plc = box({-9, -9, -9}, {9, 9, 9});
+  const auto add = [&](const std::vector<Point>& triangle) {
+    const auto n = static_cast<Index>(plc.vertices.size());
+    plc.vertices.insert(plc.vertices.end(), triangle.begin(), triangle.end());
+    plc.facets.push_back({{{n, n + 1, n + 2}}, {}, 0});
+  };
+  add({{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}});
+  for (int i = 0; i < 110; ++i) {
+    const double x = i / 20.0;
+    add({{x, -2, -1}, {x, -1, 1}, {x, -1, -1}});
+  }
+  const auto problems = validate_domain_3(make_domain_3(plc), 1000);
+  CHECK(problems.size() == 110);
+  CHECK(std::ranges::count_if(problems, [](const auto& p) { return p.message.find(" at (") != std::string::npos; }) == 100);
 }
 
 TEST_CASE("facets that touch other than in vertices and segments") {

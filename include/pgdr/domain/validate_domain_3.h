@@ -64,6 +64,7 @@ void report_intersections(const Domain_3<K>& domain, std::size_t max_pairs,
   const auto kind = Input_problem::Kind::self_intersection;
   std::vector<Input_problem> found;
 
+  constexpr std::size_t most_places = 100;  // an exact intersection takes milliseconds, and scans have 50,000
   std::map<std::array<Index, 2>, Id_pair> triangles_of_facets;  // the first two that meet
   for (const Id_pair& p : finder.triangles()) {
     const Index f = write.input_facet(soup.facet[p[0]]), g = write.input_facet(soup.facet[p[1]]);
@@ -76,7 +77,7 @@ void report_intersections(const Domain_3<K>& domain, std::size_t max_pairs,
     const auto& other = domain.facets[soup.facet[triangles[1]]];
     const bool are_identical = one.vertices == other.vertices && one.segments == other.segments;
     message += are_identical ? " are identical" : " intersect";
-    if (!are_identical && found.size() < max_pairs) message += " at " + write.point(finder.common_point(triangles[0], triangles[1]));
+    if (!are_identical && found.size() < std::min(max_pairs, most_places)) message += " at " + write.point(finder.common_point(triangles[0], triangles[1]));
     found.push_back({kind, message, {facets[0], facets[1]}, {}});
   }
 
@@ -201,7 +202,8 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std:
 /// `open_surface`: no volume is enclosed; `empty`: no facets, or no material; `ambiguous_seed`: a hole or region seed on a
 /// facet; `bad_seed`: one outside of every enclosed volume, which is only a warning: it is left out. Volumes are judged only where nothing intersects. Facets go by the
 /// number of the first input facet that they were fused from.
-/// \param max_pairs number of intersecting pairs, or of open edges, to name; the last one's message gives the total.
+/// \param max_pairs number of intersecting pairs, or of open edges, to name; the last one's message gives the total. Of the first hundred pairs
+/// the message says where.
 template <class K>
 std::vector<Input_problem> validate_domain_3(const Domain_3<K>& domain, std::size_t max_pairs = 10) {
   using namespace domain_detail;
