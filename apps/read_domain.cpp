@@ -127,14 +127,6 @@ Plc repaired_input(const std::vector<std::string>& files, const Domain_options& 
   return parts.size() == 1 ? repair(parts[0], how, &report) : assemble(parts, how, &report);
 }
 
-bool can_be_meshed(const Plc& plc, const Domain_options& options, double fusing_tolerance) {
-  try {
-    return find_problems(make_domain_3(plc, fusing_tolerance, options.accepts_bent_polygons()), 1).errors.empty();
-  } catch (const Input_error&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 std::string names_of(const std::vector<std::string>& files) {
@@ -145,11 +137,8 @@ std::string names_of(const std::vector<std::string>& files) {
 
 Input read_input(const std::vector<std::string>& files, const Domain_options& options) {
   Input input;
-  Plc& plc = input.plc;
-  plc = repaired_input(files, options, input.repair);
+  Plc plc = repaired_input(files, options, input.repair);
   input.fusing_tolerance = options.fusing_tolerance();
-  // Two sheets of a repaired surface may be closer to each other than facets are bent when they are fused.
-  if (!input.repair.is_none() && !can_be_meshed(plc, options, input.fusing_tolerance)) input.fusing_tolerance = 0;
   const double unit = unit_of(plc);
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
   for (const std::string& text : options.holes) {
@@ -165,7 +154,7 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
   plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
 
   const double tolerance = simplification(files, options).in_units(bounding_diagonal(plc));
-  if (tolerance > 0) input.plc = simplify_within(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
+  input.plc = simplify_as_far_as_valid(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
   mark_and_name(input.plc, options);
   return input;
 }

@@ -234,9 +234,8 @@ pgdr::Point_placement placement_of(const std::string& text) {
 }
 
 /// What is meshed: `plc` without what is smaller than the tolerance.
-Plc simplified(const Plc& plc, double tolerance, double coplanar_tolerance) {
-  if (!(tolerance > 0)) return plc;
-  return pgdr::simplify_within(plc, tolerance, coplanar_tolerance);
+Plc simplified(const Plc& plc, double tolerance, double& coplanar_tolerance, bool triangulate) {
+  return pgdr::simplify_as_far_as_valid(plc, tolerance, coplanar_tolerance, triangulate);
 }
 
 Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature,
@@ -246,7 +245,7 @@ Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet
   if (p.max_memory == 0) p.max_memory = pgdr::attainable_memory_bytes().value_or(0) / 10 * 9;
   std::vector<pgdr::Input_problem> warnings;
   const Domain domain = without_gil(threads, [&] {
-    const Plc plc = simplified(pgdr::normalized(input), tolerance, p.coplanar_tolerance);
+    const Plc plc = simplified(pgdr::normalized(input), tolerance, p.coplanar_tolerance, p.triangulate_facets);
     return pgdr::valid_domain(plc, p.coplanar_tolerance, p.triangulate_facets, &warnings);
   });
   for (const pgdr::Input_problem& problem : warnings)

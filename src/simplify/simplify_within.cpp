@@ -37,23 +37,29 @@ struct Narrowness {
 };
 
 /// None if the PLC is not valid.
-std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, bool triangulate) {
+std::optional<Domain_3<Default_kernel>> valid(const Plc& plc, double coplanar_tolerance, bool triangulate) {
   try {
-    const Domain_3<Default_kernel> domain = make_domain_3(plc, coplanar_tolerance, triangulate);
-    if (!std::ranges::all_of(validate_domain_3(domain, 1), &Input_problem::is_warning)) return std::nullopt;
-    std::vector<Vec_3> points;
-    for (const auto& p : domain.vertices) points.push_back(to_vec(p));
-    Narrowness n;
-    for (const auto& facet : domain.facets)
-      for (const auto& t : facet.triangles)
-        for (int i = 0; i < 3; ++i)
-          n.lowest = std::min(n.lowest, std::sqrt(squared_distance_to_line(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]])));
-    n.facets = static_cast<double>(domain.facets.size());
-    for (const auto& corner : domain_detail::Facet_edges(domain).corners(points)) n.corners += halvings(corner.angle_deg);
-    return n;
+    Domain_3<Default_kernel> domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+    if (std::ranges::all_of(validate_domain_3(domain, 1), &Input_problem::is_warning)) return domain;
   } catch (const Input_error&) {
-    return std::nullopt;
   }
+  return std::nullopt;
+}
+
+/// None if the PLC is not valid.
+std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, bool triangulate) {
+  const std::optional domain = valid(plc, coplanar_tolerance, triangulate);
+  if (!domain) return std::nullopt;
+  std::vector<Vec_3> points;
+  for (const auto& p : domain->vertices) points.push_back(to_vec(p));
+  Narrowness n;
+  for (const auto& facet : domain->facets)
+    for (const auto& t : facet.triangles)
+      for (int i = 0; i < 3; ++i)
+        n.lowest = std::min(n.lowest, std::sqrt(squared_distance_to_line(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]])));
+  n.facets = static_cast<double>(domain->facets.size());
+  for (const auto& corner : domain_detail::Facet_edges(*domain).corners(points)) n.corners += halvings(corner.angle_deg);
+  return n;
 }
 
 /// Whether a wider tolerance has made matters worse: a vertex that came next to an edge, or narrower corners altogether, that are not outweighed by facets
@@ -109,6 +115,22 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   } catch (const Input_error&) {
     return plc;  // what is wrong with it is said when it is understood
   }
+}
+
+Plc simplify_as_far_as_valid(const Plc& plc, double tolerance, double& coplanar_tolerance, bool triangulate, Simplification_within* done) {
+  constexpr double narrower = 0.1, narrowest = 1e-9;
+  Simplification_within ignored;
+  Simplification_within& report = done ? *done : ignored;
+  Plc result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);
+  const auto is_valid = [&] {  // what was made plane is known to be
+    return !report.planarization.is_none() || valid(result, coplanar_tolerance, triangulate);
+  };
+  if (!(coplanar_tolerance > 0) || is_valid() || !valid(plc, 0, triangulate)) return result;
+  do {
+    coplanar_tolerance = coplanar_tolerance > narrowest ? narrower * coplanar_tolerance : 0;
+    result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);
+  } while (coplanar_tolerance > 0 && !is_valid());
+  return result;
 }
 
 }  // namespace pgdr

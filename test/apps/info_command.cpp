@@ -21,6 +21,26 @@ TEST_CASE("info describes the project's shapes", "[apps]") {
   }
 }
 
+TEST_CASE("a surface is not refused for how its triangles are fused", "[apps]") {
+  const Sandbox sandbox;
+  // A prism whose lid is a valley 5e-7 deep along its longer diagonal; fused, that is divided along the shorter one, a ridge. A box stands 1e-7 above the valley.
+  sandbox.write("valley.off",
+                "OFF\n16 24 0\n"
+                "-1 0 0.0\n0 -0.5 0.0\n1 0 0.0\n0 0.5 0.0\n-1 0 0.9999995\n0 -0.5 1.0\n"
+                "1 0 0.9999995\n0 0.5 1.0\n-0.02 -0.02 0.9999996\n0.02 -0.02 0.9999996\n0.02 0.02 0.9999996\n-0.02 0.02 0.9999996\n"
+                "-0.02 -0.02 1.5\n0.02 -0.02 1.5\n0.02 0.02 1.5\n-0.02 0.02 1.5\n"
+                "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n"
+                "3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n"
+                "3 8 10 9\n3 8 11 10\n3 12 13 14\n3 12 14 15\n3 8 9 13\n3 8 13 12\n"
+                "3 9 10 14\n3 9 14 13\n3 10 11 15\n3 10 15 14\n3 11 8 12\n3 11 12 15\n");
+  const Run run = sandbox.run("info valley.off");
+  INFO(run.out << run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(run.out.find("facets                   13 of 24 in the file, 11 of them fused") != std::string::npos);
+  CHECK(run.out.find("regions                  2,") != std::string::npos);
+  CHECK(sandbox.run("info valley.off --tolerance 0").exit_code == 0);
+}
+
 TEST_CASE("info writes the PLC as understood", "[apps]") {
   const Sandbox sandbox;
   // The unit cube as 12 triangles.

@@ -2,6 +2,7 @@
 #include <pgdr/simplify/simplify_within.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -61,6 +62,33 @@ TEST_CASE("No wider than what is fused, only that is made plane", "[simplify]") 
   CHECK(simpler.vertices != bar.vertices);
   // Where nothing is fused there are no facets to be made plane, and no stages down to nothing.
   CHECK(simplify_within(bar, tolerance, 0).vertices == simplify(bar, tolerance).vertices);
+}
+
+TEST_CASE("As much is fused as leaves a surface valid", "[simplify]") {
+  // A prism whose lid is a valley along its longer diagonal; fused, that is divided along the shorter one, a ridge. A box stands above the valley.
+  constexpr double depth = 5e-7;
+  const auto prism = [](double gap) {
+    Plc plc;
+    for (const double lid : {0.0, 1.0})
+      for (const auto& [x, y] : {std::pair{-1.0, 0.0}, {0.0, -0.5}, {1.0, 0.0}, {0.0, 0.5}}) plc.vertices.emplace_back(x, y, lid * (y == 0 ? 1 - depth : 1.0));
+    for (const auto& t : {std::array<pgdr::Index, 3>{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}}) plc.facets.push_back({{{t.begin(), t.end()}}, {}, 0});
+    for (pgdr::Index a = 0; a < 4; ++a) plc.facets.push_back({{{a, (a + 1) % 4, (a + 1) % 4 + 4, a + 4}}, {}, 0});
+    add_box(plc, {-0.02, -0.02, 1 - depth + gap}, {0.02, 0.02, 1.5});
+    return plc;
+  };
+  const auto narrowed = [](const Plc& plc) {
+    double coplanar_tolerance = 1e-6;
+    const Plc result = pgdr::simplify_as_far_as_valid(plc, 1e-6 * pgdr::bounding_diagonal(plc), coplanar_tolerance);
+    if (coplanar_tolerance > 0) CHECK(pgdr::make_domain_3(result, coplanar_tolerance).facets.size() < plc.facets.size());
+    CHECK(pgdr::validate_domain_3(pgdr::make_domain_3(result, coplanar_tolerance)).empty() == (plc.vertices.back().z() == 1.5));
+    return coplanar_tolerance;
+  };
+  CHECK(narrowed(prism(1e-4)) == 1e-6);
+  CHECK(narrowed(prism(1e-7)) < 5e-7);
+  // What is not valid unfused is no reason to fuse less.
+  Plc dirty = prism(1e-4);
+  add_box(dirty, {-0.01, -0.01, 1.4}, {0.01, 0.01, 1.6});
+  CHECK(narrowed(dirty) == 1e-6);
 }
 
 TEST_CASE("Making facets plane makes no small dihedral angles", "[simplify][models]") {
