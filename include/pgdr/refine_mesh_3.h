@@ -261,7 +261,9 @@ class Mesher_3 {
         s.stop_message = "stopped at the time limit" + lost;
         break;
       case Stop_reason::min_edge_length:
-        s.stop_message = "stopped at the minimum edge length of " + significant(unit_of(mesh_.domain()) * min_edge_length_, 3) + lost;
+        // Nobody knows of a missing piece whether a shorter edge would have helped.
+        s.stop_message = std::string(limited_ > 0 ? "stopped at the" : "stopped where no point recovers what is missing, down to the") + " minimum edge length of " +
+                         significant(unit_of(mesh_.domain()) * min_edge_length_, 3) + lost;
         if (limited_ > 0) s.stop_message += "; " + counted(limited_, "tetrahedron", "tetrahedra") + " could not be refined";
         break;
     }

@@ -17,7 +17,7 @@ namespace pgdr {
 enum class Stop_reason {
   finished,         ///< nothing poor is left but exempt tetrahedra
   vertex_budget,    ///< `Parameters::max_vertices`
-  min_edge_length,  ///< a piece of the input could only be recovered, or a tetrahedron only be refined, with shorter edges
+  min_edge_length,  ///< a piece of the input could not be recovered, or a tetrahedron not be refined, without shorter edges
   memory_limit,     ///< `Parameters::max_memory`
   time_limit,       ///< `Parameters::time_limit`
   cancelled         ///< `Parameters::cancel`
