@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include <pgdr/domain/make_domain_3.h>
+#include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/input_error.h>
 #include <pgdr/domain/scale.h>
 #include <pgdr/domain/small_angles_3.h>
-#include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/domain/valid_domain.h>
 
 #include "simplify_in_stages.h"
 
@@ -39,11 +40,10 @@ struct Narrowness {
 /// None if the PLC is not valid.
 std::optional<Domain_3<Default_kernel>> valid(const Plc& plc, double coplanar_tolerance, bool triangulate) {
   try {
-    Domain_3<Default_kernel> domain = make_domain_3(plc, coplanar_tolerance, triangulate);
-    if (std::ranges::all_of(validate_domain_3(domain, 1), &Input_problem::is_warning)) return domain;
+    return valid_domain(plc, coplanar_tolerance, triangulate);
   } catch (const Input_error&) {
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 /// None if the PLC is not valid.
