@@ -4,7 +4,8 @@
 
 Wedges from half a degree, fans of facets on one edge, needles, slits, spikes, crumpled bodies, facets that meet in a vertex only,
 dented hulls of random points, balls with regular folds, blocks with a top that is not quite flat, curved tops of fused strips of needles,
-bodies that nearly touch, terraces that are nearly flat; from 1,000,000 on beams: profiles of U, L, T and others, whose walls have cocircular corners.
+bodies that nearly touch, terraces that are nearly flat; from 1,000,000 on beams: profiles of U, L, T and others, whose walls have cocircular corners;
+from 2,000,000 on stacks: prisms on each other, with narrow gaps between them.
 Some of them turned, moved, scaled from 1e-6 to 1e6. Each is made from its number alone. Prints a table by kind in Markdown, and the numbers of those that
 did not end with a mesh that passes; `--keep FOLDER` writes these as .poly files, without the facets that the failure does not need.
 `--min-dihedral A`: dihedral angles below A degrees fail, too, but for those that the input's angles explain.
@@ -24,7 +25,7 @@ from pathlib import Path
 from measure import ROOT, attempt, table
 
 KINDS = ("wedge", "fan", "needle", "slit", "spike", "star", "pair", "hull", "ball", "bent", "strip", "touch", "terrace")
-FIRST_BEAM = 1000000  # numbers below keep their kinds, which docs and tests name
+FIRST_BEAM, FIRST_STACK = 1000000, 2000000  # numbers below keep their kinds, which docs and tests name
 
 
 def _box_faces(facets, first):
@@ -298,6 +299,21 @@ def _beam(rng, points, facets):
     facets += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
 
 
+def _stack(rng, points, facets):
+    """Two to four prisms on each other, turned and moved, with gaps between them."""
+    gap, z = 10 ** rng.uniform(-6, -1.5), 0
+    for _ in range(rng.randint(2, 4)):
+        n, first, radius, turn = rng.choice((3, 4, 5, 6, 12)), len(points), rng.uniform(0.3, 0.6), rng.uniform(0, 7)
+        x, y, top = rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), z + rng.uniform(0.05, 0.3)
+        ends = range(first, first + n), range(first + n, first + 2 * n)
+        for height in (z, top):
+            angles = [turn + 2 * math.pi * i / n for i in range(n)]
+            points += [(x + 1.5 * radius * math.cos(a), y + radius * math.sin(a), height) for a in angles]
+        facets += [list(end) for end in ends]
+        facets += [[ends[0][i], ends[0][(i + 1) % n], ends[1][(i + 1) % n], ends[1][i]] for i in range(n)]
+        z = top + gap
+
+
 def _side(a, b, c, p):
     """Six times the volume of a tetrahedron, with its sign."""
     u, v, w = ([x - y for x, y in zip(q, a)] for q in (b, c, p))
@@ -315,7 +331,9 @@ def _rotation(rng):
 
 
 def kind_of(seed):
-    return "beam" if seed >= FIRST_BEAM else KINDS[seed % len(KINDS)]
+    if seed >= FIRST_BEAM:
+        return "stack" if seed >= FIRST_STACK else "beam"
+    return KINDS[seed % len(KINDS)]
 
 
 def plc(seed):
@@ -368,7 +386,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=700)
-    parser.add_argument("--kinds", default=",".join((*KINDS, "beam")))
+    parser.add_argument("--kinds", default=",".join((*KINDS, "beam", "stack")))
     parser.add_argument("--min-dihedral")
     parser.add_argument("--pgdr", type=lambda p: Path(p).resolve(), default=ROOT / "build" / "release" / "pgdr")
     parser.add_argument("--limit", type=float, default=20)

@@ -27,20 +27,21 @@ ALLOWED = {
     "independence": {"octree"},
     "simplify": {"domain", "parallel"},
     "repair": {"domain"},
-    "acute": {"domain", "mesh"},
+    "mirrors": {"domain"},
+    "acute": {"mirrors", "domain", "mesh"},
     "cgal": {"domain", "mesh", "refinement", "parallel"},
 }
 # For a room: the rooms that it must not include.
 FORBIDDEN = {
-    "schedule": {"mesh", "conforming", "acute"},
+    "schedule": {"mesh", "conforming", "acute", "mirrors"},
     "refinement": {"schedule"},
     "slivers": {"schedule", "io", "quality"},
     "conforming": {"schedule", "parallel"},
-    "mesh": {"schedule", "parallel", "refinement", "conforming", "acute", "io", "quality", "report"},
-    "domain": {"mesh", "refinement", "conforming", "acute", "schedule", "io", "quality", "report"},
-    "sizing": {"mesh", "refinement", "conforming", "acute", "schedule", "io", "quality", "report"},
-    "io": {"refinement", "conforming", "acute", "schedule"},
-    "quality": {"refinement", "conforming", "acute", "schedule"},
+    "mesh": {"schedule", "parallel", "refinement", "conforming", "acute", "mirrors", "io", "quality", "report"},
+    "domain": {"mesh", "refinement", "conforming", "acute", "mirrors", "schedule", "io", "quality", "report"},
+    "sizing": {"mesh", "refinement", "conforming", "acute", "mirrors", "schedule", "io", "quality", "report"},
+    "io": {"refinement", "conforming", "acute", "mirrors", "schedule"},
+    "quality": {"refinement", "conforming", "acute", "mirrors", "schedule"},
 }
 # The engine is sequential; these headers of its room come after it.
 AFTER_REFINEMENT = {"refinement/indexed_mesh_of_3.h", "refinement/canonical_order.h", "refinement/sort_tetrahedra.h"}

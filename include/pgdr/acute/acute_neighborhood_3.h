@@ -17,12 +17,13 @@
 
 #include <pgdr/acute/narrow_angles_3.h>
 #include <pgdr/acute/protected_balls_3.h>
-#include <pgdr/acute/wedges_3.h>
 #include <pgdr/domain/detail/aabb_trees.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
+#include <pgdr/mirrors/gaps_3.h>
+#include <pgdr/mirrors/wedges_3.h>
 
 namespace pgdr {
 
@@ -48,6 +49,7 @@ class Acute_neighborhood_3 {
 
   const Facet_wedges_3& wedges() const { return wedges_; }
   const Segment_wedges_3& segment_wedges() const { return segment_wedges_; }
+  const Gaps_3& gaps() const { return gaps_; }
   const Protected_balls_3& balls() const { return *balls_; }
   const Narrow_angles_3& narrow() const { return *narrow_; }
 
@@ -99,7 +101,7 @@ class Acute_neighborhood_3 {
  private:
   template <class K>
   Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes, const domain_detail::Facet_edges& edges)
-      : wedges_(domain, edges), segment_wedges_(domain, edges), sizes_(std::move(sizes)) {
+      : wedges_(domain, edges), segment_wedges_(domain, edges), gaps_(domain), sizes_(std::move(sizes)) {
     const Small_angles angles = small_angles_3(domain);
     is_acute_vertex_.resize(domain.vertices.size(), false);
     list_small_angles(domain, angles);
@@ -185,6 +187,7 @@ class Acute_neighborhood_3 {
 
   Facet_wedges_3 wedges_;
   Segment_wedges_3 segment_wedges_;
+  Gaps_3 gaps_;
   Size_bounds sizes_;
   std::optional<Protected_balls_3> balls_;
   std::optional<Narrow_angles_3> narrow_;

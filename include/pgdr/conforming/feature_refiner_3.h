@@ -133,16 +133,25 @@ class Feature_refiner_3 {
     return segment ? complex_.subsegment_radius(r.piece.slot) : complex_.subfacet_radius(r.piece.slot);
   }
 
-  /// Puts the images of the domain's own vertices on segments. A vertex's insertion radius is for that its shortest segment.
+  /// Puts the images of the domain's own vertices, and points where segments cross each other across gaps. A vertex's insertion radius is for that its shortest segment.
   void mirror_corners() {
-    std::vector<double> radius(complex_.domain().vertices.size(), std::numeric_limits<double>::infinity());
+    const auto& domain = complex_.domain();
+    std::vector<double> radius(domain.vertices.size(), std::numeric_limits<double>::infinity());
+    std::vector<Vertex_handle> vertex(domain.vertices.size());
     const auto for_each_end = [&](const auto& call) {
       for (std::uint32_t s = 0; s < complex_.subsegment_slots(); ++s)
         if (complex_.subsegment(s).alive())
           for (const Vertex_handle v : complex_.subsegment(s).vertices) call(s, v);
     };
-    for_each_end([&](std::uint32_t s, Vertex_handle v) { radius[v->index()] = std::min(radius[v->index()], 2 * complex_.subsegment_radius(s)); });
+    for_each_end([&](std::uint32_t s, Vertex_handle v) {
+      vertex[v->index()] = v;
+      radius[v->index()] = std::min(radius[v->index()], 2 * complex_.subsegment_radius(s));
+    });
     for_each_end([&](std::uint32_t s, Vertex_handle v) { images_.add_on_segments(v, complex_.subsegment(s).segment, radius[v->index()]); });
+    for (Index f = 0; f < domain.facets.size(); ++f)
+      for (const Index v : domain.facets[f].vertices)
+        if (vertex[v] != Vertex_handle()) images_.add_across_gaps(vertex[v], f, radius[v]);
+    images_.add_crossings();
     put_images();
   }
 
@@ -246,7 +255,7 @@ class Feature_refiner_3 {
     Errand& e = *errand;
     if (e.is_image()) {
       if (!zone().is_near(e.by)) return false;
-      images_.add({e.by, {2, e.facet}, e.home, e.by->insertion_radius(), e.reason != Split_reason::missing});
+      images_.add({e.by, e.on, e.home, e.by->insertion_radius(), e.reason != Split_reason::missing});
       put_images();
       return false;
     }
@@ -280,8 +289,9 @@ class Feature_refiner_3 {
   Split_outcome split_subsegment_at(std::uint32_t slot, const Vec_3& m, Split_reason reason, const Split_guard& guard, const Accept& accept) {
     auto& s = complex_.subsegment(slot);
     const double radius = complex_.subsegment_radius(slot);
-    const auto is_to_be_alone = [&](std::uint32_t t) { return needs_to_be_alone(complex_.subfacet(t).facet, m, radius); };
-    if (!region_.contains(m) || !territory().owns(s.vertices) || std::ranges::any_of(s.subfacets, is_to_be_alone))
+    const auto is_to_be_alone = [&](std::uint32_t t) { return needs_to_be_alone({2, complex_.subfacet(t).facet}, m, radius); };
+    if (!region_.contains(m) || !territory().owns(s.vertices) || needs_to_be_alone({1, s.segment}, m, radius) ||
+        std::ranges::any_of(s.subfacets, is_to_be_alone))
       return point_elsewhere(m, complex_.subsegment_id(slot), true);
     if (!s.present && !is_near(s.vertices)) return unsafe(m, complex_.subsegment_id(slot), true, reason);
     if (split_points_.is_subsegment_protected(slot)) return Split_outcome::refused;
@@ -355,8 +365,8 @@ class Feature_refiner_3 {
 
   /// Whether a point has images that may lie in another territory. They have to be there before anything else is: facets that
   /// meet at a small angle and get points at unlike places give each other ever more of them.
-  bool needs_to_be_alone(Index facet, const Vec_3& m, double radius) const {
-    return !territory().is_everything() && images_.has_images(facet, m, radius);
+  bool needs_to_be_alone(const Feature_id& on, const Vec_3& m, double radius) const {
+    return !territory().is_everything() && images_.has_images(on, m, radius);
   }
 
   /// Flips an edge of a missing subfacet where the sheet is not Delaunay, if there is one.
@@ -381,7 +391,7 @@ class Feature_refiner_3 {
     const auto& t = complex_.subfacet(slot);
     if (!std::isfinite(m.x + m.y + m.z)) return Split_outcome::refused;
     if (reason == Split_reason::encroached && split_points_.is_subfacet_protected(slot)) return Split_outcome::refused;
-    if (!region_.contains(m) || needs_to_be_alone(t.facet, m, length(m - position(t.vertices[0]))))
+    if (!region_.contains(m) || needs_to_be_alone({2, t.facet}, m, length(m - position(t.vertices[0]))))
       return point_elsewhere(m, complex_.subfacet_id(slot), false);
     if (!t.present && !is_near(t.vertices)) return unsafe(m, complex_.subfacet_id(slot), false, reason);
     if (reason == Split_reason::missing && flip_missing(slot)) return Split_outcome::inserted;
@@ -507,14 +517,14 @@ class Feature_refiner_3 {
       return r == Search_result::foreign ? hand_on(i) : void();
     features_.gather(complex_, cavity_);
     const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
-    const double radius = i.by->insertion_radius(), near = 0.5 * std::min(radius, length(i.at - position(i.by)));
+    const double near = 0.5 * std::min(i.radius, length(i.at - position(i.by)));
     const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.on.index); };
     if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near ||
         spacing_.is_below_minimum(cavity_.squared_insertion_radius(i.at)))
       return cavity_.abandon();
     const std::vector<Piece_id> way = images_.in_the_way(i, p, near, features_, at);
     if (!way.empty()) return make_way(i, way);
-    const Split_guard guard{.relaxed = i.by->relaxed_radius(), .inherited = radius};
+    const Split_guard guard = i.inherits ? Split_guard{.relaxed = i.by->relaxed_radius(), .inherited = i.radius} : Split_guard{};
     if (const Vertex_handle v = insert_on_facet(at, p, i.at, guard); v != Vertex_handle()) {
       images_.add_of(v, made_, i.is_usual);
     } else if (stars_[0].is_foreign()) {
@@ -523,15 +533,28 @@ class Feature_refiner_3 {
   }
 
   void put_on_segment(const Image& i) {
-    const std::uint32_t slot = images_.subsegment_at(i);
-    const Split_guard guard{.relaxed = std::max<double>(i.radius, i.by->relaxed_radius()), .inherited = i.radius};
-    if (slot != Complex::none) split_subsegment_at(slot, i.at, Split_reason::missing, guard, always);
+    if (!images_.is_alone()) {
+      if (!region_.contains(i.at)) return hand_on(i);
+      if (const auto r = search_.from_vertex(Point(i.at.x, i.at.y, i.at.z), i.by); r != Search_result::found)
+        return r == Search_result::foreign ? hand_on(i) : void();
+      features_.gather(complex_, cavity_);
+      cavity_.abandon();
+    }
+    const std::uint32_t slot = images_.subsegment_at(i, features_);
+    const Split_guard guard =
+        i.inherits ? Split_guard{.relaxed = std::max<double>(i.radius, i.by->relaxed_radius()), .inherited = i.radius} : Split_guard{};
+    if (slot == Complex::none) return;
+    const Split_outcome outcome = split_subsegment_at(slot, i.at, Split_reason::missing, guard, always);
+    if (outcome == Split_outcome::elsewhere) hand_on(i);
+    if (outcome != Split_outcome::inserted || i.by != Vertex_handle()) return;
+    for (const Vertex_handle v : complex_.subsegment(complex_.find_on_segment(i.on.index, i.at)).vertices)
+      if (position(v) == i.at) v->set_crossing();
   }
 
   void hand_on(const Image& i) {
     auto errand = std::make_unique<Errand>();
     errand->by = i.by;
-    errand->facet = i.on.index;
+    errand->on = i.on;
     errand->home = i.at;
     errand->reason = i.is_usual ? Split_reason::encroached : Split_reason::missing;
     outgoing_.emplace_back(i.at, std::move(errand));

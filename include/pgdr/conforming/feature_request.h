@@ -12,6 +12,7 @@
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/fifo.h>
 #include <pgdr/conforming/spread_queue.h>
+#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
@@ -82,7 +83,7 @@ struct Cell_id_3 {
 };
 
 /// A split on its way to the leaf that holds the split point, on behalf of a client in the leaf that it comes from. Or
-/// a point to be put on a facet at `home`, since there is one at the like place, `by`, on a facet close by.
+/// a point to be put on a feature, `on`, at `home`, since there is one at the like place, `by`, on a feature close by.
 template <class Cell_handle>
 struct Feature_errand_3 {
   using Vertex_handle = typename std::iterator_traits<Cell_handle>::value_type::Vertex_handle;
@@ -104,7 +105,7 @@ struct Feature_errand_3 {
   Obstacle_id obstacle;
   std::vector<Obstacle_id> refused;
   Vertex_handle by{};
-  Index facet = 0;
+  Feature_id on{};
   bool is_image() const { return by != Vertex_handle(); }
 };
 

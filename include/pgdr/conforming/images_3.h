@@ -26,21 +26,25 @@ class Images_3 {
 
   /// A point to be put on a feature for the sake of a vertex on another one.
   struct Image {
-    Vertex_handle by;
+    Vertex_handle by;  ///< none: two segments cross each other there
     Feature_id on;
     Vec_3 at;
     double radius;  ///< the insertion radius of that vertex
     bool is_usual;  ///< not for the sake of a missing piece, see `Facet_wedges_3`
+    bool inherits = true;  ///< that insertion radius
     int tries = 0;  ///< of putting it there
   };
 
   Images_3(const Complex& complex, const Acute_neighborhood_3& acute) : complex_(complex), acute_(acute) {}
 
-  bool empty() const { return images_.empty(); }
-  void add(const Image& i) { images_.push_back(i); }
+  bool empty() const { return on_segments_.empty() && on_facets_.empty(); }
+  void add(const Image& i) { (i.on.dimension == 1 ? on_segments_ : on_facets_).push_back(i); }
+  /// Those on segments first, as subsegments come before subfacets: an image on a facet may be next to a segment, for which a point at the like place
+  /// waits as well, and would have it split elsewhere.
   Image pop() {
-    const Image i = images_.back();
-    images_.pop_back();
+    auto& images = on_segments_.empty() ? on_facets_ : on_segments_;
+    const Image i = images.back();
+    images.pop_back();
     return i;
   }
 
@@ -48,26 +52,40 @@ class Images_3 {
   /// `around` are subfacets at v, those of one facet one after the other.
   void add_of(Vertex_handle v, const std::vector<std::uint32_t>& around, bool is_usual) {
     Index facet = Tr::Vertex::none;
-    const double distance = (is_usual ? 0.5 : 1) * v->insertion_radius();
+    const double radius = v->insertion_radius();
     for (const std::uint32_t t : around)
       if (std::exchange(facet, complex_.subfacet(t).facet) != complex_.subfacet(t).facet)
-        acute_.wedges().for_each_image(facet, position(v), distance, is_usual, [&](const Mirror_image& i) {
-          if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.on_plane(i.on.index, i.at), v->insertion_radius(), is_usual});
-        });
-    if (v->in_dimension() == 1 && is_alone()) add_on_segments(v, v->index(), v->insertion_radius());
+        for_each_image(facet, position(v), radius, (is_usual ? 0.5 : 1) * radius, is_usual, add_on_facet(v, radius, is_usual));
+    if (v->in_dimension() == 1) add_on_segments(v, v->index(), radius);
   }
 
-  /// Adds the images of a vertex of a segment, which may be one of its ends, on segments close by: only for one that is alone at work. To
-  /// conform to needles takes like points; when that is done refinement puts its own wherever it needs them, which images only add to.
+  /// Adds the images of a domain vertex across gaps, on facets that face one of its facets.
+  void add_across_gaps(Vertex_handle v, Index facet, double radius) {
+    acute_.gaps().for_each_image_on_facets(facet, position(v), radius, is_alone(), add_on_facet(v, radius, true));
+  }
+
+  /// Adds the images of a vertex of a segment, which may be one of its ends, on segments close by. On those that meet it only for one that is alone
+  /// at work: to conform to needles takes like points; when that is done refinement puts its own wherever it needs them, which images only add to.
   void add_on_segments(Vertex_handle v, Index segment, double radius) {
-    acute_.segment_wedges().for_each_image(segment, position(v), close * radius,
-                                           [&](const Mirror_image& i) { add({v, i.on, i.at, radius, true}); });
+    const auto add_image = [&](const Mirror_image& i) { add({v, i.on, i.at, radius, true, i.inherits}); };
+    if (is_alone()) acute_.segment_wedges().for_each_image(segment, position(v), close * radius, add_image);
+    acute_.gaps().for_each_image_on_segments(segment, position(v), radius, is_alone(), add_image);
   }
 
-  /// Whether a point m put on this facet at this distance from other vertices would have images, wherever these are.
-  bool has_images(Index facet, const Vec_3& m, double radius) const {
+  /// Adds the points where segments cross each other across gaps, for one that is alone at work. Neither has a vertex there that could have an image.
+  void add_crossings() {
+    for (const auto& c : acute_.gaps().crossings())
+      for (const std::size_t k : {0, 1}) add({{}, {1, c.segments[k]}, c.at[k], c.radius, true, false});
+  }
+
+  /// Whether a point m put on this facet, or segment, at this distance from other vertices would have images there, wherever these are.
+  bool has_images(const Feature_id& on, const Vec_3& m, double radius) const {
     bool found = false;
-    acute_.wedges().for_each_image(facet, m, radius, true, [&](const Mirror_image&) { found = true; });
+    const auto note = [&](const Mirror_image&) { found = true; };
+    if (on.dimension == 1)
+      acute_.gaps().for_each_image_on_segments(on.index, m, radius, is_alone(), note);
+    else
+      for_each_image(on.index, m, radius, radius, true, note);
     return found;
   }
 
@@ -82,6 +100,9 @@ class Images_3 {
     if (!is_alone()) return;
     for (const std::uint32_t t : subfacets) some_subfacet_[complex_.subfacet(t).facet] = t;
   }
+
+  /// Whether it was told of all subfacets.
+  bool is_alone() const { return !some_subfacet_.empty(); }
 
   /// The subfacet that holds an image's point p: one of those on p's cavity, or a missing one that waits. None if there is none.
   std::uint32_t subfacet_at(const Image& i, const Point& p, const Cavity_features_3<Tr>& cavity,
@@ -101,9 +122,10 @@ class Images_3 {
     return Complex::none;
   }
 
-  /// The subsegment that holds an image, if its ends are about as far from there as the image's vertex was from others. None if there is none.
-  std::uint32_t subsegment_at(const Image& i) const {
-    const std::uint32_t slot = complex_.find_on_segment(i.on.index, i.at);
+  /// The subsegment that holds an image, if its ends are about as far from there as the image's vertex was from others: found along the segment by one
+  /// that is alone at work, else one of those on the image's cavity. None if there is none.
+  std::uint32_t subsegment_at(const Image& i, const Cavity_features_3<Tr>& cavity) const {
+    const std::uint32_t slot = is_alone() ? complex_.find_on_segment(i.on.index, i.at) : cavity_subsegment_at(i, cavity);
     if (slot == Complex::none) return slot;
     const auto is_near = [&](Vertex_handle v) { return length(position(v) - i.at) < least * i.radius; };
     return std::ranges::any_of(complex_.subsegment(slot).vertices, is_near) ? Complex::none : slot;
@@ -135,11 +157,29 @@ class Images_3 {
   /// How far an image has to be from other vertices of its segment, of that radius: what a split may halve.
   static constexpr double least = 0.5;
 
-  bool is_alone() const { return !some_subfacet_.empty(); }
+  template <class Found>
+  void for_each_image(Index facet, const Vec_3& m, double radius, double distance, bool is_usual, const Found& found) const {
+    acute_.wedges().for_each_image(facet, m, distance, is_usual, found);
+    acute_.gaps().for_each_image_on_facets(facet, m, radius, is_alone(), found);
+  }
+
+  auto add_on_facet(Vertex_handle v, double radius, bool is_usual) {
+    return [this, v, radius, is_usual](const Mirror_image& i) {
+      if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.on_plane(i.on.index, i.at), radius, is_usual, i.inherits});
+    };
+  }
+
+  std::uint32_t cavity_subsegment_at(const Image& i, const Cavity_features_3<Tr>& cavity) const {
+    for (const auto& f : cavity.subsegments()) {
+      const auto& s = complex_.subsegment(f.slot);
+      if (s.segment == i.on.index && dot(position(s.vertices[0]) - i.at, position(s.vertices[1]) - i.at) < 0) return f.slot;
+    }
+    return Complex::none;
+  }
 
   const Complex& complex_;
   const Acute_neighborhood_3& acute_;
-  std::vector<Image> images_;
+  std::vector<Image> on_segments_, on_facets_;
   std::vector<std::uint32_t> some_subfacet_;  ///< of each facet, where that is known
 };
 

@@ -26,13 +26,14 @@ class Split_points_3 {
 
   Split_points_3(const Complex& complex, const Acute_neighborhood_3& acute) : complex_(complex), acute_(acute) {}
 
-  bool is_acute(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
+  /// Whether subsegments at v are split at distances that are powers of two: where segments meet at a small angle, or cross each other across a gap.
+  bool is_acute(Vertex_handle v) const { return has_ball(v) || v->is_crossing(); }
 
   Vec_3 of_subsegment(std::uint32_t slot) const {
     const auto& ends = complex_.subsegment(slot).vertices;
     double shell = 0;
     for (const Vertex_handle end : ends)
-      if (is_acute(end)) shell = acute_.balls().radius(end->index());
+      if (has_ball(end)) shell = acute_.balls().radius(end->index());
     return subsegment_split_point(position(ends[0]), position(ends[1]), is_acute(ends[0]), is_acute(ends[1]), shell);
   }
 
@@ -73,7 +74,7 @@ class Split_points_3 {
   bool is_subsegment_protected(std::uint32_t slot) const {
     const auto& ends = complex_.subsegment(slot).vertices;
     const auto protects = [&](Vertex_handle center, Vertex_handle other) {
-      return is_acute(center) && acute_.balls().contains_segment(center->index(), position(other));
+      return has_ball(center) && acute_.balls().contains_segment(center->index(), position(other));
     };
     return protects(ends[0], ends[1]) || protects(ends[1], ends[0]);
   }
@@ -84,6 +85,8 @@ class Split_points_3 {
   }
 
  private:
+  bool has_ball(Vertex_handle v) const { return v->in_dimension() == 0 && acute_.is_acute_vertex(v->index()); }
+
   /// At a share of the way from a subfacet's circumcenter.
   Vec_3 towards_centroid(std::uint32_t slot, double share) const {
     const auto& v = complex_.subfacet(slot).vertices;

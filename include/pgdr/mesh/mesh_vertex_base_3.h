@@ -47,6 +47,10 @@ class Mesh_vertex_base_3 : public Vb {
   std::array<std::uint32_t, 2>& subsegments() { return subsegments_; }
   const std::array<std::uint32_t, 2>& subsegments() const { return subsegments_; }
 
+  /// Whether its segment crosses another one there, across a gap; then further vertices of both keep distances from there that are alike.
+  bool is_crossing() const { return is_crossing_; }
+  void set_crossing() { is_crossing_ = true; }
+
   /// Scratch: position in the cavity at hand, later in the output.
   std::uint32_t number() const { return number_; }
   void set_number(std::uint32_t n) { number_ = n; }
@@ -69,6 +73,7 @@ class Mesh_vertex_base_3 : public Vb {
   float relaxed_radius_ = 0;
   mutable std::uint16_t territory_ = 0;
   std::uint8_t dimension_ = 3;
+  bool is_crossing_ = false;
 };
 
 }  // namespace pgdr

@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef PGDR_ACUTE_WEDGES_3_H
-#define PGDR_ACUTE_WEDGES_3_H
+#ifndef PGDR_MIRRORS_WEDGES_3_H
+#define PGDR_MIRRORS_WEDGES_3_H
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include <pgdr/mirrors/mirror_image.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
-#include <pgdr/domain/feature_id.h>
 #include <pgdr/domain/region_3.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
 
 namespace pgdr {
-
-/// Where a point of a feature comes to lie on another one that meets it at a small angle, if it is turned about what they meet in: a segment,
-/// or a vertex.
-struct Mirror_image {
-  Feature_id on;  ///< the other one
-  Vec_3 at;       ///< in its plane, or on it
-};
 
 /// The pairs of segments that follow each other around a corner of a facet, at less than `limit` degrees.
 ///
@@ -88,19 +81,8 @@ class Facet_wedges_3 {
   static constexpr double usual_limit = 30;
 
   template <class K>
-  Facet_wedges_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges) : of_facet_(domain.facets.size()) {
+  Facet_wedges_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges) : of_facet_(domain.facets.size()), boxes_(facet_boxes(domain)) {
     using namespace domain_detail;
-    for (const auto& f : domain.facets) {
-      Region_3& box = boxes_.emplace_back();
-      box.lower = box.upper = to_vec(domain.vertices[f.vertices.front()]);
-      for (const Index v : f.vertices) {
-        const Vec_3 p = to_vec(domain.vertices[v]);
-        for (int k = 0; k < 3; ++k) {
-          box.lower[k] = std::min(box.lower[k], p[k] - domain.tolerance);
-          box.upper[k] = std::max(box.upper[k], p[k] + domain.tolerance);
-        }
-      }
-    }
     for (Index s = 0; s < domain.segments.size(); ++s) {
       const auto [a, b] = domain.segments[s].vertices;
       const Vec_3 origin = to_vec(domain.vertices[a]), along = to_vec(domain.vertices[b]) - origin;
@@ -140,7 +122,7 @@ class Facet_wedges_3 {
     bool is_usual;
   };
   std::vector<std::vector<Wedge>> of_facet_;
-  std::vector<Region_3> boxes_;  ///< of all facets, with the tolerance within which their vertices are off their planes
+  std::vector<Region_3> boxes_;
 };
 
 }  // namespace pgdr

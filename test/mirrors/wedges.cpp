@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <pgdr/acute/wedges_3.h>
+#include <pgdr/mirrors/wedges_3.h>
 #include <pgdr/domain/make_domain_3.h>
 
 #include "catch.h"
