@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -165,7 +166,33 @@ class Gaps_3 {
     return overlapping(boxes, [&](Index i, Index j) {
       const auto &f = domain.facets[i], &g = domain.facets[j];
       return std::abs(dot(to_vec(f.normal), to_vec(g.normal))) >= cosine_of_limit() && are_near(boxes[i], boxes[j]) &&
-             !have_common(f.vertices, g.vertices);
+             !have_common(f.vertices, g.vertices) && may_face(domain, i, j);
+    });
+  }
+
+  /// Whether two facets may overlap as seen along the normal of the first: they do not if a line along one of their segments parts them. Without this a
+  /// finely tessellated surface has as many pairs as facets.
+  template <class K>
+  static bool may_face(const Domain_3<K>& domain, Index i, Index j) {
+    constexpr std::size_t most = 8;  // segments of each that are tried
+    const Vec_3 normal = to_vec(domain.facets[i].normal);
+    const auto extent = [&](Index f, const Vec_3& axis) {
+      double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+      for (const Index v : domain.facets[f].vertices) {
+        const double x = dot(to_vec(domain.vertices[v]), axis);
+        lower = std::min(lower, x), upper = std::max(upper, x);
+      }
+      return std::pair(lower, upper);
+    };
+    return std::ranges::none_of(std::array{i, j}, [&](Index f) {
+      const auto& segments = domain.facets[f].segments;
+      return std::any_of(segments.begin(), segments.begin() + static_cast<std::ptrdiff_t>(std::min(most, segments.size())), [&](Index s) {
+        const auto [a, b] = domain.segments[s].vertices;
+        const Vec_3 axis = cross(normal, to_vec(domain.vertices[b]) - to_vec(domain.vertices[a]));
+        const auto [from, to] = extent(i, axis);
+        const auto [first, last] = extent(j, axis);
+        return to < first || last < from;
+      });
     });
   }
 
