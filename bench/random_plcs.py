@@ -285,6 +285,15 @@ def _terrace(rng, points, facets):
     _bar(points, facets, front, back, rng.uniform(0.3, 1))
 
 
+def _prism(points, facets, profile, heights):
+    """Over a polygon in the plane, from one height to another."""
+    n, first = len(profile), len(points)
+    points += [(x, y, z) for z in heights for x, y in profile]
+    bottom, top = range(first, first + n), range(first + n, first + 2 * n)
+    facets += [list(bottom), list(top)]
+    facets += [[bottom[i], bottom[(i + 1) % n], top[(i + 1) % n], top[i]] for i in range(n)]
+
+
 def _beam(rng, points, facets):
     """A beam with a profile of U, L, T or a trapezoid, whose measures are small whole numbers."""
     a, b, c, h, k, length = (rng.choice((1, 2, 3, 4, 5, 6, 8)) for _ in range(6))
@@ -293,24 +302,17 @@ def _beam(rng, points, facets):
         ((0, 0), (a + b, 0), (a + b, h), (a, h), (a, h + k), (0, h + k)),
         ((0, 0), (b, 0), (b, h), (b + c, h), (b + c, h + k), (-a, h + k), (-a, h), (0, h)),
         ((0, 0), (a + b + c, 0), (a + b, h), (a, h))))
-    n = len(profile)
-    points += [(x, y, z) for z in (0, length * rng.choice((1, 2, 5))) for x, y in profile]
-    facets += [list(range(n)), list(range(n, 2 * n))]
-    facets += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    _prism(points, facets, profile, (0, length * rng.choice((1, 2, 5))))
 
 
 def _stack(rng, points, facets):
     """Two to four prisms on each other, turned and moved, with gaps between them."""
     gap, z = 10 ** rng.uniform(-6, -1.5), 0
     for _ in range(rng.randint(2, 4)):
-        n, first, radius, turn = rng.choice((3, 4, 5, 6, 12)), len(points), rng.uniform(0.3, 0.6), rng.uniform(0, 7)
+        n, radius, turn = rng.choice((3, 4, 5, 6, 12)), rng.uniform(0.3, 0.6), rng.uniform(0, 7)
         x, y, top = rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), z + rng.uniform(0.05, 0.3)
-        ends = range(first, first + n), range(first + n, first + 2 * n)
-        for height in (z, top):
-            angles = [turn + 2 * math.pi * i / n for i in range(n)]
-            points += [(x + 1.5 * radius * math.cos(a), y + radius * math.sin(a), height) for a in angles]
-        facets += [list(end) for end in ends]
-        facets += [[ends[0][i], ends[0][(i + 1) % n], ends[1][(i + 1) % n], ends[1][i]] for i in range(n)]
+        angles = [turn + 2 * math.pi * i / n for i in range(n)]
+        _prism(points, facets, [(x + 1.5 * radius * math.cos(a), y + radius * math.sin(a)) for a in angles], (z, top))
         z = top + gap
 
 

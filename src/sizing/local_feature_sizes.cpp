@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/detail/have_common.h>
 #include <pgdr/domain/detail/triangle_soup.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/scale.h>
@@ -64,15 +65,6 @@ class Widths {
     double width = std::numeric_limits<double>::infinity();  ///< from its plane, if it faces where the ray comes from
   };
 
-  bool have_common_vertex(Index f, Index g) const {
-    const auto &a = domain_.facets[f].vertices, &b = domain_.facets[g].vertices;
-    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
-      if (*i == *j) return true;
-      ++(*i < *j ? i : j);
-    }
-    return false;
-  }
-
   Sight sight(Index facet, const Vec_3& from, const Vec_3& inward) const {
     const Work_kernel::Ray_3 ray(to_work_point(from), Work_kernel::Vector_3(inward.x, inward.y, inward.z));
     const auto facet_of = [&](Triangles::const_iterator t) { return soup_.facet[static_cast<std::size_t>(t - triangles_.cbegin())]; };
@@ -82,7 +74,7 @@ class Widths {
     const Index other = facet_of(*hit);
     const Vec_3 normal = to_vec(domain_.facets[other].normal);
     const double steepness = std::abs(dot(normal, inward)), away = std::abs(dot(normal, to_vec(domain_.facets[other].origin) - from));
-    const bool faces = steepness >= slanted && !have_common_vertex(facet, other);
+    const bool faces = steepness >= slanted && !have_common(domain_.facets[facet].vertices, domain_.facets[other].vertices);
     return {steepness > 0 ? away / steepness : 0, faces ? away : std::numeric_limits<double>::infinity()};
   }
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <pgdr/mirrors/gaps_3.h>
 #include <pgdr/domain/make_domain_3.h>
+#include <pgdr/mirrors/gaps_3.h>
 #include <pgdr/refinement/indexed_mesh_of_3.h>
 
 #include "catch.h"
@@ -23,7 +23,7 @@ using pgdr::Vec_3;
 
 namespace {
 
-/// The facet of a domain that has the largest z of all in the half-space below, or above, z = middle.
+/// The facet of a domain that is next to the plane z = middle, on the side below or above, and about as steep as that.
 template <class Domain>
 Index facet_next_to(const Domain& domain, double middle, bool below) {
   for (Index f = 0; f < domain.facets.size(); ++f) {

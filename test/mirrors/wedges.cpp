@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include <pgdr/mirrors/wedges_3.h>
 #include <pgdr/domain/make_domain_3.h>
+#include <pgdr/mirrors/wedges_3.h>
 
 #include "catch.h"
 #include "domain/shapes.h"
@@ -47,6 +49,16 @@ Plc capped_cube(double h, double along) {
   return plc;
 }
 
+/// Refinement ends with a mesh that passes, of so many vertices at most.
+void check_ends(const Plc& plc, std::size_t most) {
+  pgdr::Parameters parameters;
+  parameters.max_vertices = most;
+  const Mesh mesh = refined(plc, std::numeric_limits<double>::infinity(), parameters);
+  CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
+  CHECK(mesh.statistics().unrecovered == 0);
+  CHECK(failures(pgdr::check_mesh(pgdr::indexed_mesh_3(mesh), &mesh.domain())) == "");
+}
+
 }  // namespace
 
 TEST_CASE("An image on a segment is as far from the corner, and vertices at like places are in no diametral ball", "[conforming]") {
@@ -79,12 +91,7 @@ TEST_CASE("What a low triangle costs does not depend on how low it is", "[confor
   for (const double h : {1e-4, 1e-5, 1e-7})
     for (const double along : {0.3, 0.5, 0.99, 0.999}) {
       CAPTURE(h, along);
-      pgdr::Parameters parameters;
-      parameters.max_vertices = 3000;
-      const Mesh mesh = refined(capped_cube(h, along), std::numeric_limits<double>::infinity(), parameters);
-      CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
-      CHECK(mesh.statistics().unrecovered == 0);
-      CHECK(failures(pgdr::check_mesh(pgdr::indexed_mesh_3(mesh), &mesh.domain())) == "");
+      check_ends(capped_cube(h, along), 3000);
     }
 }
 
@@ -139,11 +146,6 @@ TEST_CASE("Two facets at a small angle, with different other edges, are conforme
   for (const double degrees : {2, 5, 10, 20, 29})
     for (int k = 0; k < 10; ++k) {
       CAPTURE(degrees, k);
-      pgdr::Parameters parameters;
-      parameters.max_vertices = 100000;
-      const Mesh mesh = refined(wedge(random, degrees), std::numeric_limits<double>::infinity(), parameters);
-      CHECK(mesh.statistics().stop == pgdr::Stop_reason::finished);
-      CHECK(mesh.statistics().unrecovered == 0);
-      CHECK(failures(pgdr::check_mesh(pgdr::indexed_mesh_3(mesh), &mesh.domain())) == "");
+      check_ends(wedge(random, degrees), 100000);
     }
 }

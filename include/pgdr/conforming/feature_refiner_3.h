@@ -511,11 +511,8 @@ class Feature_refiner_3 {
   /// is, or subsegments are in the way.
   void put_image(const Image& i) {
     if (i.on.dimension == 1) return put_on_segment(i);
-    if (!region_.contains(i.at)) return hand_on(i);
+    if (!find_cavity(i)) return;
     const Point p(i.at.x, i.at.y, i.at.z);
-    if (const auto r = search_.from_vertex(p, i.by); r != Search_result::found)
-      return r == Search_result::foreign ? hand_on(i) : void();
-    features_.gather(complex_, cavity_);
     const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
     const double near = 0.5 * std::min(i.radius, length(i.at - position(i.by)));
     const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.on.index); };
@@ -524,8 +521,7 @@ class Feature_refiner_3 {
       return cavity_.abandon();
     const std::vector<Piece_id> way = images_.in_the_way(i, p, near, features_, at);
     if (!way.empty()) return make_way(i, way);
-    const Split_guard guard = i.inherits ? Split_guard{.relaxed = i.by->relaxed_radius(), .inherited = i.radius} : Split_guard{};
-    if (const Vertex_handle v = insert_on_facet(at, p, i.at, guard); v != Vertex_handle()) {
+    if (const Vertex_handle v = insert_on_facet(at, p, i.at, guard_of(i)); v != Vertex_handle()) {
       images_.add_of(v, made_, i.is_usual);
     } else if (stars_[0].is_foreign()) {
       hand_on(i);
@@ -534,21 +530,29 @@ class Feature_refiner_3 {
 
   void put_on_segment(const Image& i) {
     if (!images_.is_alone()) {
-      if (!region_.contains(i.at)) return hand_on(i);
-      if (const auto r = search_.from_vertex(Point(i.at.x, i.at.y, i.at.z), i.by); r != Search_result::found)
-        return r == Search_result::foreign ? hand_on(i) : void();
-      features_.gather(complex_, cavity_);
+      if (!find_cavity(i)) return;
       cavity_.abandon();
     }
     const std::uint32_t slot = images_.subsegment_at(i, features_);
-    const Split_guard guard =
-        i.inherits ? Split_guard{.relaxed = std::max<double>(i.radius, i.by->relaxed_radius()), .inherited = i.radius} : Split_guard{};
     if (slot == Complex::none) return;
-    const Split_outcome outcome = split_subsegment_at(slot, i.at, Split_reason::missing, guard, always);
+    const Split_outcome outcome = split_subsegment_at(slot, i.at, Split_reason::missing, guard_of(i), always);
     if (outcome == Split_outcome::elsewhere) hand_on(i);
     if (outcome != Split_outcome::inserted || i.by != Vertex_handle()) return;
     for (const Vertex_handle v : complex_.subsegment(complex_.find_on_segment(i.on.index, i.at)).vertices)
       if (position(v) == i.at) v->set_crossing();
+  }
+
+  /// Finds an image's cavity and the features on it. If that is elsewhere, the image is handed on.
+  bool find_cavity(const Image& i) {
+    const Search_result r = region_.contains(i.at) ? search_.from_vertex(Point(i.at.x, i.at.y, i.at.z), i.by) : Search_result::foreign;
+    if (r == Search_result::foreign) hand_on(i);
+    if (r != Search_result::found) return false;
+    features_.gather(complex_, cavity_);
+    return true;
+  }
+
+  static Split_guard guard_of(const Image& i) {
+    return i.inherits ? Split_guard{.relaxed = i.by->relaxed_radius(), .inherited = i.radius} : Split_guard{};
   }
 
   void hand_on(const Image& i) {

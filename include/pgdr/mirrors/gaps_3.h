@@ -17,6 +17,7 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <pgdr/domain/detail/aabb_trees.h>
+#include <pgdr/domain/detail/have_common.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/region_3.h>
@@ -78,16 +79,6 @@ class Gaps_3 {
     }
   }
 
-  /// Two segments that cross each other across what is not meshed, and the points of theirs that are closest to each other.
-  struct Crossing {
-    std::array<Index, 2> segments;
-    std::array<Vec_3, 2> at;
-    double radius;  ///< of a point that would have an image this far away
-  };
-  /// Those with room for their points, by the numbers of the segments: the ends of the segments are as far as the insertion radius of a point that would
-  /// have an image, at least.
-  const std::vector<Crossing>& crossings() const { return crossings_; }
-
   /// The same for segments, and a point of one, or an end.
   template <class Found>
   void for_each_image_on_segments(Index segment, const Vec_3& m, double radius, bool all, const Found& found) const {
@@ -98,6 +89,16 @@ class Gaps_3 {
       if (const Vec_3 at = s.origin + (x - s.first) * s.along; squared_distance(at, m) <= most * most) found(Mirror_image{{1, s.other}, at, s.is_empty});
     }
   }
+
+  /// Two segments that cross each other across what is not meshed, and the points of theirs that are closest to each other.
+  struct Crossing {
+    std::array<Index, 2> segments;
+    std::array<Vec_3, 2> at;
+    double radius;  ///< of a point that would have an image this far away
+  };
+  /// Those with room for their points, by the numbers of the segments: the ends of the segments are as far as the insertion radius of a point that would
+  /// have an image, at least.
+  const std::vector<Crossing>& crossings() const { return crossings_; }
 
  private:
   static constexpr double rounding = 1e-12;
@@ -151,22 +152,14 @@ class Gaps_3 {
     return true;
   }
 
-  template <class List>
-  static bool have_common(const List& a, const List& b) {  // ascending
-    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
-      if (*i == *j) return true;
-      *i < *j ? ++i : ++j;
-    }
-    return false;
-  }
-
   /// Nearly parallel facets without a common vertex that are close to each other.
   template <class K>
   static std::vector<Pair> near_each_other(const Domain_3<K>& domain, const std::vector<Region_3>& boxes) {
+    const double cosine = cosine_of_limit();
     return overlapping(boxes, [&](Index i, Index j) {
       const auto &f = domain.facets[i], &g = domain.facets[j];
-      return std::abs(dot(to_vec(f.normal), to_vec(g.normal))) >= cosine_of_limit() && are_near(boxes[i], boxes[j]) &&
-             !have_common(f.vertices, g.vertices) && may_face(domain, i, j);
+      return std::abs(dot(to_vec(f.normal), to_vec(g.normal))) >= cosine && are_near(boxes[i], boxes[j]) &&
+             !domain_detail::have_common(f.vertices, g.vertices) && may_face(domain, i, j);
     });
   }
 
@@ -260,7 +253,7 @@ class Gaps_3 {
   template <class K>
   void pair_segments(const Domain_3<K>& domain, Index s, Index t, bool is_empty) {
     const auto &v = domain.segments[s].vertices, &w = domain.segments[t].vertices;
-    if (have_common(v, w)) return;
+    if (domain_detail::have_common(v, w)) return;
     const auto point = [&](Index i) { return to_vec(domain.vertices[i]); };
     const Vec_3 a = point(v[0]), e = point(v[1]) - a;
     Vec_3 b = point(w[0]), f = point(w[1]) - b;

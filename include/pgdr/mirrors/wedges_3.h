@@ -7,13 +7,13 @@
 #include <cmath>
 #include <vector>
 
-#include <pgdr/mirrors/mirror_image.h>
 #include <pgdr/domain/detail/facet_edges.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/region_3.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
+#include <pgdr/mirrors/mirror_image.h>
 
 namespace pgdr {
 
