@@ -57,9 +57,10 @@ int run_check(const Check_arguments& arguments) {
   std::optional<Domain> domain;
   std::vector<Check_line> lines;
   if (!arguments.inputs.empty()) {
-    const Input input = read_input(arguments.inputs, arguments.domain);
-    domain = understand(input, arguments.domain);
-    print_or_throw(find_problems(*domain));
+    Input input = read_input(arguments.inputs, arguments.domain);
+    Understood understood = understand(input, arguments.domain);
+    print_or_throw(sort_problems(understood.problems));
+    domain = std::move(understood.domain);
     if (input.simplified.limit > 0)
       lines.push_back({"tolerance", input.simplified.distance.is_within,
                        "what is meshed is within " + significant(input.simplified.limit, 3) + " of the input and the input within that of it; the largest distance met is " +

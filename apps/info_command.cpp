@@ -102,7 +102,7 @@ void check_outputs(const Info_arguments& arguments) {
 
 int run_info(const Info_arguments& arguments) {
   check_outputs(arguments);
-  const Input input = read_input(arguments.inputs, arguments.domain);
+  Input input = read_input(arguments.inputs, arguments.domain);
   if (!input.repair.is_none()) print_line("repaired", repair_text(input.repair));
   if (!input.simplified.simplification.is_none())
     print_line("simplified", simplification_text(input.simplified.simplification) + "; --tolerance 0 keeps them");
@@ -110,8 +110,9 @@ int run_info(const Info_arguments& arguments) {
     print_line("made plane", counted(input.simplified.planarization.flattened_facets, "facet", "facets") + ": " +
                                  planarization_text(input.simplified.planarization) + "; --tolerance 0 keeps them");
   with_problem_file(arguments.problems, input.plc, [&] {
-    const Domain domain = understand(input, arguments.domain);
-    const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(arguments.problems));
+    const std::size_t pairs = pairs_to_list(arguments.problems);
+    const auto [domain, problems] = understand(input, arguments.domain, pairs);
+    const Domain_summary summary = summarize_domain_3(domain, pairs, &problems);
     print_summary(summary);
     std::cout.flush();
     print_or_throw(sort_problems(summary.problems));

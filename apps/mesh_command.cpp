@@ -240,8 +240,8 @@ void find_facets_of_files(Indexed_mesh_3& mesh, const Mesh_arguments& arguments)
 }
 
 /// What went in, for people.
-Rows input_rows(const Domain& domain, const Run_summary& run) {
-  const Domain_summary summary = summarize_domain_3(domain);
+Rows input_rows(const Domain& domain, const std::vector<Input_problem>& problems, const Run_summary& run) {
+  const Domain_summary summary = summarize_domain_3(domain, pairs_to_list(), &problems);
   Rows rows{{"vertices", with_separators(summary.vertices)},
             {"facets", with_separators(summary.facets) + " of " + with_separators(summary.input_facets) + " in the file"},
             {"segments", with_separators(summary.segments)},
@@ -265,9 +265,10 @@ int run_mesh(const Mesh_arguments& arguments) {
   Progress_line progress(!arguments.quiet, &Interrupt_guard::flag());
   progress.show("reading " + names_of(arguments.inputs));
   std::optional<Domain> domain;
+  std::vector<Input_problem> problems;  // that it can be meshed in spite of
   Run_summary run;
   {
-    const Input input = read_input(arguments.inputs, arguments.domain);
+    Input input = read_input(arguments.inputs, arguments.domain);
     const Plc& plc = input.plc;
     run.repair = input.repair;
     run.simplification = input.simplified.simplification;
@@ -275,10 +276,11 @@ int run_mesh(const Mesh_arguments& arguments) {
     timer.end_phase("reading");
     progress.show("checking the input");
     with_problem_file(arguments.problems, plc, [&] {
-      domain = understand(input, arguments.domain);
-      const Problems problems = find_problems(*domain, pairs_to_list(arguments.problems));
+      Understood understood = understand(input, arguments.domain, pairs_to_list(arguments.problems));
       progress.erase();
-      print_or_throw(problems);
+      print_or_throw(sort_problems(understood.problems));
+      domain = std::move(understood.domain);
+      problems = std::move(understood.problems);
     });
   }
   const Combined_sizing_field sizing = arguments.sizing.field(*domain);
@@ -349,7 +351,7 @@ int run_mesh(const Mesh_arguments& arguments) {
     progress.show("writing " + arguments.report);
     std::string title;
     for (const std::string& input : arguments.inputs) title += (title.empty() ? "" : ", ") + std::filesystem::path(input).filename().string();
-    write_report(mesh, {title, "meshed by pgdr " PGDR_VERSION, input_rows(*domain, run), p.radius_edge_ratio, &run, &record}, arguments.report);
+    write_report(mesh, {title, "meshed by pgdr " PGDR_VERSION, input_rows(*domain, problems, run), p.radius_edge_ratio, &run, &record}, arguments.report);
     progress.erase();
   }
   if (!arguments.quiet && arguments.stats != "-") print_summary(std::cout, run);

@@ -2,6 +2,7 @@
 #include "read_domain.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <pgdr/domain/make_domain_3.h>
@@ -156,11 +157,15 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
   const double tolerance = simplification(files, options).in_units(bounding_diagonal(plc));
   input.plc = simplify_as_far_as_valid(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
   mark_and_name(input.plc, options);
+  if (options.changes_references()) input.simplified.understood.reset();
   return input;
 }
 
-Domain understand(const Input& input, const Domain_options& options) {
-  return make_domain_3(input.plc, input.fusing_tolerance, options.accepts_bent_polygons());
+Understood understand(Input& input, const Domain_options& options, std::size_t max_pairs) {
+  if (std::optional known = std::exchange(input.simplified.understood, std::nullopt)) return std::move(*known);
+  Domain domain = make_domain_3(input.plc, input.fusing_tolerance, options.accepts_bent_polygons());
+  std::vector<Input_problem> problems = validate_domain_3(domain, max_pairs);
+  return {std::move(domain), std::move(problems)};
 }
 
 void add_problems_option(CLI::App& parser, std::string& path) {
@@ -180,10 +185,6 @@ Problems sort_problems(const std::vector<Input_problem>& problems) {
   Problems sorted;
   for (const Input_problem& problem : problems) (problem.is_warning() ? sorted.warnings : sorted.errors).push_back(problem);
   return sorted;
-}
-
-Problems find_problems(const Domain& domain, std::size_t max_pairs) {
-  return sort_problems(validate_domain_3(domain, max_pairs));
 }
 
 void print_or_throw(const Problems& problems) {

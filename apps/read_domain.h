@@ -44,6 +44,9 @@ struct Domain_options {
   /// Polygons that are not plane become triangles.
   bool accepts_bent_polygons() const { return triangulate || repair; }
 
+  /// Whether markers or names become others than those of the file.
+  bool changes_references() const { return !patch_angle.empty() || !marker_names.empty() || !region_names.empty(); }
+
   /// The number behind `coplanar_tolerance`. Throws `Usage_error`.
   double fusing_tolerance() const;
 };
@@ -64,8 +67,15 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
 /// Files as they are named in messages.
 std::string names_of(const std::vector<std::string>& files);
 
-/// Understands what was read. Throws `Input_error` for what cannot be understood at all.
-Domain understand(const Input& input, const Domain_options& options);
+/// How many intersecting pairs to list: those that fit on a screen, or all for a file.
+inline std::size_t pairs_to_list(const std::string& problem_file = {}) {
+  return problem_file.empty() ? 10 : std::numeric_limits<std::size_t>::max();
+}
+
+/// Understands what was read, and finds what is wrong with it; what was understood while it was simplified is taken from `input`.
+/// \param max_pairs see `validate_domain_3`
+/// Throws `Input_error` for what cannot be understood at all.
+Understood understand(Input& input, const Domain_options& options, std::size_t max_pairs = pairs_to_list());
 
 /// Adds `--problems`.
 void add_problems_option(CLI::App& parser, std::string& path);
@@ -86,20 +96,12 @@ void with_problem_file(const std::string& path, const Plc& plc, const Work& work
   if (!path.empty()) write_problems(plc, {}, path);
 }
 
-/// How many intersecting pairs to list: those that fit on a screen, or all for a file.
-inline std::size_t pairs_to_list(const std::string& problem_file = {}) {
-  return problem_file.empty() ? 10 : std::numeric_limits<std::size_t>::max();
-}
-
 /// What is wrong with a domain, apart by whether it can be meshed nevertheless.
 struct Problems {
   std::vector<Input_problem> errors;
   std::vector<Input_problem> warnings;  ///< seeds that name nothing
 };
 Problems sort_problems(const std::vector<Input_problem>& problems);
-
-/// All that `validate_domain_3` finds.
-Problems find_problems(const Domain& domain, std::size_t max_pairs = pairs_to_list());
 
 /// Prints the warnings on stderr and throws the errors as `Input_error`.
 void print_or_throw(const Problems& problems);

@@ -233,9 +233,14 @@ pgdr::Point_placement placement_of(const std::string& text) {
   throw py::value_error("placement has to be 'lazy', 'circumcenter', 'type1' or 'type2'");
 }
 
-/// What is meshed: `plc` without what is smaller than the tolerance.
-Plc simplified(const Plc& plc, double tolerance, double& coplanar_tolerance, bool triangulate) {
-  return pgdr::simplify_as_far_as_valid(plc, tolerance, coplanar_tolerance, triangulate);
+/// What is meshed of `input`: what is left without what is smaller than the tolerance. Sets how widely that is fused. Throws `Input_error`.
+pgdr::Understood understood(const Plc& input, double tolerance, pgdr::Parameters& p) {
+  pgdr::Simplification_within done;
+  const Plc plc = pgdr::simplify_as_far_as_valid(pgdr::normalized(input), tolerance, p.coplanar_tolerance, p.triangulate_facets, &done);
+  if (done.understood) return std::move(*done.understood);
+  pgdr::Understood result;
+  result.domain = pgdr::valid_domain(plc, p.coplanar_tolerance, p.triangulate_facets, &result.problems);
+  return result;
 }
 
 Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet_sizes, const std::optional<double>& curvature,
@@ -243,11 +248,7 @@ Mesh make_mesh(const Plc& input, const py::object& size, const py::object& facet
   require_same_process();
   p.placement = placement_of(placement);
   if (p.max_memory == 0) p.max_memory = pgdr::attainable_memory_bytes().value_or(0) / 10 * 9;
-  std::vector<pgdr::Input_problem> warnings;
-  const Domain domain = without_gil(threads, [&] {
-    const Plc plc = simplified(pgdr::normalized(input), tolerance, p.coplanar_tolerance, p.triangulate_facets);
-    return pgdr::valid_domain(plc, p.coplanar_tolerance, p.triangulate_facets, &warnings);
-  });
+  const auto [domain, warnings] = without_gil(threads, [&] { return understood(input, tolerance, p); });
   for (const pgdr::Input_problem& problem : warnings)
     if (PyErr_WarnEx(PyExc_UserWarning, problem.message.c_str(), 3) != 0) throw py::error_already_set();
   const auto errors = std::make_shared<pgdr_python::First_error>();

@@ -12,6 +12,6 @@ template Domain_3<Default_kernel> make_domain_3(const Plc&, double, bool);
 template std::vector<Input_problem> validate_domain_3(const Domain_3<Default_kernel>&, std::size_t);
 template Small_angles small_angles_3(const Domain_3<Default_kernel>&);
 template Plc plc_from_domain_3(const Domain_3<Default_kernel>&);
-template Domain_summary summarize_domain_3(const Domain_3<Default_kernel>&, std::size_t);
+template Domain_summary summarize_domain_3(const Domain_3<Default_kernel>&, std::size_t, const std::vector<Input_problem>*);
 template class Volumes_3<Default_kernel>;
 }  // namespace pgdr

@@ -38,38 +38,36 @@ struct Narrowness {
 };
 
 /// None if the PLC is not valid.
-std::optional<Domain_3<Default_kernel>> valid(const Plc& plc, double coplanar_tolerance, bool triangulate) {
+std::optional<Understood> understood(const Plc& plc, double coplanar_tolerance, bool triangulate) {
   try {
-    return valid_domain(plc, coplanar_tolerance, triangulate);
+    std::vector<Input_problem> warnings;
+    Domain_3<Default_kernel> domain = valid_domain(plc, coplanar_tolerance, triangulate, &warnings);
+    return Understood{std::move(domain), std::move(warnings)};
   } catch (const Input_error&) {
     return std::nullopt;
   }
 }
 
-/// None if the PLC is not valid.
-std::optional<Narrowness> narrowness(const Plc& plc, double coplanar_tolerance, bool triangulate) {
-  const std::optional domain = valid(plc, coplanar_tolerance, triangulate);
-  if (!domain) return std::nullopt;
+Narrowness narrowness(const Domain_3<Default_kernel>& domain) {
   std::vector<Vec_3> points;
-  for (const auto& p : domain->vertices) points.push_back(to_vec(p));
+  for (const auto& p : domain.vertices) points.push_back(to_vec(p));
   Narrowness n;
-  for (const auto& facet : domain->facets)
+  for (const auto& facet : domain.facets)
     for (const auto& t : facet.triangles)
       for (int i = 0; i < 3; ++i)
         n.lowest = std::min(n.lowest, std::sqrt(squared_distance_to_line(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]])));
-  n.facets = static_cast<double>(domain->facets.size());
-  for (const auto& corner : domain_detail::Facet_edges(*domain).corners(points)) n.corners += halvings(corner.angle_deg);
+  n.facets = static_cast<double>(domain.facets.size());
+  for (const auto& corner : domain_detail::Facet_edges(domain).corners(points)) n.corners += halvings(corner.angle_deg);
   return n;
 }
 
 /// Whether a wider tolerance has made matters worse: a vertex that came next to an edge, or narrower corners altogether, that are not outweighed by facets
 /// that are gone.
-bool is_worse(const Narrowness& now, const std::optional<Narrowness>& noise_only, double tolerance) {
+bool is_worse(const Narrowness& now, const Narrowness& noise_only, double tolerance) {
   constexpr double much_lower = 0.01;  // of the tolerance, and below half of what there was
   // A facet of a scan gets about five tetrahedra (a05 5.3, a14 5.1, a11 7), a halving about a thousand.
   constexpr double facets_of_halving = 200;
-  if (!noise_only) return false;
-  return (now.lowest < much_lower * tolerance && now.lowest < noise_only->lowest / 2) || now.corners - noise_only->corners > (noise_only->facets - now.facets) / facets_of_halving;
+  return (now.lowest < much_lower * tolerance && now.lowest < noise_only.lowest / 2) || now.corners - noise_only.corners > (noise_only.facets - now.facets) / facets_of_halving;
 }
 
 }  // namespace
@@ -85,28 +83,31 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   simplify_detail::Stage noise;
   noise.plc = simplify_detail::simplify_in_stages(plc, is_wide ? fused : tolerance, coplanar_tolerance, triangulate, noise.done);
   // What moves vertices looks itself whether the result is valid; what takes them away does not know what is fused.
-  std::optional<Narrowness> before;
-  if (is_wide || !noise.done.simplification.is_none()) before = narrowness(noise.plc, coplanar_tolerance, triangulate);
+  std::optional<Understood> before;
+  if (is_wide || !noise.done.simplification.is_none()) before = understood(noise.plc, coplanar_tolerance, triangulate);
   if (is_wide) {
+    const std::optional narrow = before ? std::optional(narrowness(before->domain)) : std::nullopt;
     // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
     for (int attempt = 0;; ++attempt) {
       const double within = std::ldexp(tolerance, attempt == 0 ? 1 : 2 - 2 * attempt);
       if (!(within > fused)) break;
       Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report, &noise);
       if (report.is_none()) break;
-      const auto now = narrowness(result, coplanar_tolerance, triangulate);
+      auto now = understood(result, coplanar_tolerance, triangulate);
       // Less will hardly mend what is not valid as it is, and tries cost seconds.
-      if (!now && !before && !narrowness(plc, coplanar_tolerance, triangulate)) break;
-      if (!now || is_worse(*now, before, std::min(within, tolerance) / unit)) continue;
+      if (!now && !before && !understood(plc, coplanar_tolerance, triangulate)) break;
+      if (!now || (narrow && is_worse(narrowness(now->domain), *narrow, std::min(within, tolerance) / unit))) continue;
       const auto distance = surface_distance(plc, result, limit / unit);
       if (!distance || !distance->is_within) continue;
       report.limit = limit;
       report.distance = {unit * distance->seen, true, unit * distance->at};
+      report.understood = std::move(now);
       return result;
     }
   }
   if (before || noise.done.simplification.is_none()) {
     report = noise.done;
+    report.understood = std::move(before);
     return noise.plc;
   }
   report = {};
@@ -123,9 +124,10 @@ Plc simplify_as_far_as_valid(const Plc& plc, double tolerance, double& coplanar_
   Simplification_within& report = done ? *done : ignored;
   Plc result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);
   const auto is_valid = [&] {  // what was made plane is known to be
-    return !report.planarization.is_none() || valid(result, coplanar_tolerance, triangulate);
+    if (report.planarization.is_none() && !report.understood) report.understood = understood(result, coplanar_tolerance, triangulate);
+    return !report.planarization.is_none() || report.understood;
   };
-  if (!(coplanar_tolerance > 0) || is_valid() || !valid(plc, 0, triangulate)) return result;
+  if (!(coplanar_tolerance > 0) || is_valid() || !understood(plc, 0, triangulate)) return result;
   do {
     coplanar_tolerance = coplanar_tolerance > narrowest ? narrower * coplanar_tolerance : 0;
     result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);

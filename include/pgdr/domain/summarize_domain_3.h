@@ -47,8 +47,9 @@ struct Domain_summary {
 
 /// Gathers all of a domain's summary.
 /// \param max_pairs see `validate_domain_3`.
+/// \param known what `validate_domain_3` has found before, which is not looked for again then
 template <class K>
-Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pairs = 10) {
+Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pairs = 10, const std::vector<Input_problem>* known = nullptr) {
   using namespace domain_detail;
   Domain_summary result;
   result.vertices = domain.vertices.size();
@@ -88,10 +89,13 @@ Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pai
     result.problems = validate_domain_3(domain, max_pairs);
     return result;
   }
-  report_intersections(domain, max_pairs, result.problems);
-  if (!result.problems.empty()) return result;
+  if (known)
+    result.problems = *known;
+  else
+    report_intersections(domain, max_pairs, result.problems);
+  if (std::ranges::any_of(result.problems, [](const Input_problem& problem) { return problem.kind == Input_problem::Kind::self_intersection; })) return result;
   const Volumes_3<K> volumes(domain);
-  report_volumes(domain, volumes, max_pairs, result.problems);
+  if (!known) report_volumes(domain, volumes, max_pairs, result.problems);
   result.closed = volumes.closed();
   result.volumes = volumes.volumes();
   result.material_volume = std::ldexp(volumes.total_material_volume(), 3 * domain.exponent);
@@ -104,7 +108,7 @@ Domain_summary summarize_domain_3(const Domain_3<K>& domain, std::size_t max_pai
 }
 
 // Compiled in the library.
-extern template Domain_summary summarize_domain_3(const Domain_3<Default_kernel>&, std::size_t);
+extern template Domain_summary summarize_domain_3(const Domain_3<Default_kernel>&, std::size_t, const std::vector<Input_problem>*);
 }  // namespace pgdr
 
 #endif
