@@ -5,10 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/patches.h>
 #include <pgdr/domain/scale.h>
-#include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/domain/valid_domain.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/parameters.h>
 
@@ -163,9 +162,7 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
 
 Understood understand(Input& input, const Domain_options& options, std::size_t max_pairs) {
   if (std::optional known = std::exchange(input.simplified.understood, std::nullopt)) return std::move(*known);
-  Domain domain = make_domain_3(input.plc, input.fusing_tolerance, options.accepts_bent_polygons());
-  std::vector<Input_problem> problems = validate_domain_3(domain, max_pairs);
-  return {std::move(domain), std::move(problems)};
+  return pgdr::understand(input.plc, input.fusing_tolerance, options.accepts_bent_polygons(), max_pairs);
 }
 
 void add_problems_option(CLI::App& parser, std::string& path) {

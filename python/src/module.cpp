@@ -233,13 +233,13 @@ pgdr::Point_placement placement_of(const std::string& text) {
   throw py::value_error("placement has to be 'lazy', 'circumcenter', 'type1' or 'type2'");
 }
 
-/// What is meshed of `input`: what is left without what is smaller than the tolerance. Sets how widely that is fused. Throws `Input_error`.
+/// What is meshed of `input`, which is valid: what is left without what is smaller than the tolerance. Sets how widely that is fused. Throws `Input_error`.
 pgdr::Understood understood(const Plc& input, double tolerance, pgdr::Parameters& p) {
   pgdr::Simplification_within done;
   const Plc plc = pgdr::simplify_as_far_as_valid(pgdr::normalized(input), tolerance, p.coplanar_tolerance, p.triangulate_facets, &done);
   if (done.understood) return std::move(*done.understood);
-  pgdr::Understood result;
-  result.domain = pgdr::valid_domain(plc, p.coplanar_tolerance, p.triangulate_facets, &result.problems);
+  pgdr::Understood result = pgdr::understand(plc, p.coplanar_tolerance, p.triangulate_facets);
+  result.require_valid();
   return result;
 }
 

@@ -10,12 +10,20 @@
 
 namespace pgdr {
 
-Domain_3<Default_kernel> valid_domain(const Plc& plc, double coplanar_tolerance, bool triangulate, std::vector<Input_problem>* warnings) {
+void Understood::require_valid() const {
+  if (!std::ranges::all_of(problems, &Input_problem::is_warning)) throw Input_error(problems);
+}
+
+Understood understand(const Plc& plc, double coplanar_tolerance, bool triangulate, std::size_t max_pairs) {
   Domain_3<Default_kernel> domain = make_domain_3(plc, coplanar_tolerance, triangulate);
-  std::vector<Input_problem> problems = validate_domain_3(domain);
-  if (!std::ranges::all_of(problems, &Input_problem::is_warning)) throw Input_error(std::move(problems));
-  if (warnings) *warnings = std::move(problems);
-  return domain;
+  std::vector<Input_problem> problems = validate_domain_3(domain, max_pairs);
+  return {std::move(domain), std::move(problems)};
+}
+
+Domain_3<Default_kernel> valid_domain(const Plc& plc, double coplanar_tolerance, bool triangulate) {
+  Understood understood = understand(plc, coplanar_tolerance, triangulate);
+  understood.require_valid();
+  return std::move(understood.domain);
 }
 
 }  // namespace pgdr

@@ -38,11 +38,11 @@ struct Narrowness {
 };
 
 /// None if the PLC is not valid.
-std::optional<Understood> understood(const Plc& plc, double coplanar_tolerance, bool triangulate) {
+std::optional<Understood> valid(const Plc& plc, double coplanar_tolerance, bool triangulate) {
   try {
-    std::vector<Input_problem> warnings;
-    Domain_3<Default_kernel> domain = valid_domain(plc, coplanar_tolerance, triangulate, &warnings);
-    return Understood{std::move(domain), std::move(warnings)};
+    Understood understood = understand(plc, coplanar_tolerance, triangulate);
+    understood.require_valid();
+    return understood;
   } catch (const Input_error&) {
     return std::nullopt;
   }
@@ -84,7 +84,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   noise.plc = simplify_detail::simplify_in_stages(plc, is_wide ? fused : tolerance, coplanar_tolerance, triangulate, noise.done);
   // What moves vertices looks itself whether the result is valid; what takes them away does not know what is fused.
   std::optional<Understood> before;
-  if (is_wide || !noise.done.simplification.is_none()) before = understood(noise.plc, coplanar_tolerance, triangulate);
+  if (is_wide || !noise.done.simplification.is_none()) before = valid(noise.plc, coplanar_tolerance, triangulate);
   if (is_wide) {
     const std::optional narrow = before ? std::optional(narrowness(before->domain)) : std::nullopt;
     // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
@@ -93,9 +93,9 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
       if (!(within > fused)) break;
       Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report, &noise);
       if (report.is_none()) break;
-      auto now = understood(result, coplanar_tolerance, triangulate);
+      auto now = valid(result, coplanar_tolerance, triangulate);
       // Less will hardly mend what is not valid as it is, and tries cost seconds.
-      if (!now && !before && !understood(plc, coplanar_tolerance, triangulate)) break;
+      if (!now && !before && !valid(plc, coplanar_tolerance, triangulate)) break;
       if (!now || (narrow && is_worse(narrowness(now->domain), *narrow, std::min(within, tolerance) / unit))) continue;
       const auto distance = surface_distance(plc, result, limit / unit);
       if (!distance || !distance->is_within) continue;
@@ -124,10 +124,10 @@ Plc simplify_as_far_as_valid(const Plc& plc, double tolerance, double& coplanar_
   Simplification_within& report = done ? *done : ignored;
   Plc result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);
   const auto is_valid = [&] {  // what was made plane is known to be
-    if (report.planarization.is_none() && !report.understood) report.understood = understood(result, coplanar_tolerance, triangulate);
+    if (report.planarization.is_none() && !report.understood) report.understood = valid(result, coplanar_tolerance, triangulate);
     return !report.planarization.is_none() || report.understood;
   };
-  if (!(coplanar_tolerance > 0) || is_valid() || !understood(plc, 0, triangulate)) return result;
+  if (!(coplanar_tolerance > 0) || is_valid() || !valid(plc, 0, triangulate)) return result;
   do {
     coplanar_tolerance = coplanar_tolerance > narrowest ? narrower * coplanar_tolerance : 0;
     result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);

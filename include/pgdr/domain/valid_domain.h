@@ -2,6 +2,7 @@
 #ifndef PGDR_DOMAIN_VALID_DOMAIN_H
 #define PGDR_DOMAIN_VALID_DOMAIN_H
 
+#include <cstddef>
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
@@ -10,10 +11,22 @@
 
 namespace pgdr {
 
+/// A domain and what is wrong with it.
+struct Understood {
+  Domain_3<Default_kernel> domain;
+  std::vector<Input_problem> problems;  ///< of `validate_domain_3`
+
+  /// Throws `Input_error` with all that is wrong, unless these are only warnings.
+  void require_valid() const;
+};
+
 /// `make_domain_3` and `validate_domain_3` in one, compiled in the library.
-/// \param warnings gets what the domain can be meshed in spite of
-/// Throws `Input_error` with all that is wrong.
-Domain_3<Default_kernel> valid_domain(const Plc& plc, double coplanar_tolerance, bool triangulate = false, std::vector<Input_problem>* warnings = nullptr);
+/// \param max_pairs see `validate_domain_3`
+/// Throws `Input_error` for what cannot be understood at all.
+Understood understand(const Plc& plc, double coplanar_tolerance, bool triangulate = false, std::size_t max_pairs = 10);
+
+/// What `understand` understands. Throws `Input_error` with all that is wrong, unless these are only warnings.
+Domain_3<Default_kernel> valid_domain(const Plc& plc, double coplanar_tolerance, bool triangulate = false);
 
 }  // namespace pgdr
 

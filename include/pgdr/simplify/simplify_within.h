@@ -3,22 +3,14 @@
 #define PGDR_SIMPLIFY_SIMPLIFY_WITHIN_H
 
 #include <optional>
-#include <vector>
 
 #include <pgdr/domain/default_kernel.h>
-#include <pgdr/domain/domain_3.h>
-#include <pgdr/domain/input_error.h>
+#include <pgdr/domain/valid_domain.h>
 #include <pgdr/simplify/planarize.h>
 #include <pgdr/simplify/simplify.h>
 #include <pgdr/simplify/surface_distance.h>
 
 namespace pgdr {
-
-/// A domain and what is wrong with it.
-struct Understood {
-  Domain_3<Default_kernel> domain;
-  std::vector<Input_problem> problems;  ///< of `validate_domain_3`
-};
 
 /// What `simplify_within` did.
 struct Simplification_within {
@@ -27,7 +19,7 @@ struct Simplification_within {
   /// For the distance of the result from what it was made of; 0: it has not changed by more than facets are fused.
   double limit = 0;
   Surface_distance distance;  ///< as measured, where there is a limit
-  /// The result as `make_domain_3` understands it, with nothing but warnings, where it had to be looked at whether it is valid: with a million
+  /// The result as `understand` makes it, with nothing but warnings, where it had to be looked at whether it is valid: with a million
   /// facets that takes seconds.
   std::optional<Understood> understood;
 
