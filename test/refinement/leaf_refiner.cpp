@@ -119,7 +119,7 @@ class Interval_refiner {
   // Intervals are always fine enough for leaves.
   struct Division {
     std::vector<Worklist> parts;
-    std::vector<Region_3> regions;
+    std::vector<pgdr::Territory_id> territories;
   };
   Division divide(Worker&, Worklist&, const Leaf_task&, std::size_t, unsigned) const { return {}; }
   void unite(Worklist&, std::vector<Worklist>&, double, double) const {}

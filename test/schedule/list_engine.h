@@ -38,7 +38,7 @@ struct List_engine {
   void activate(Worklist&, double, double) const {}
   struct Division {
     std::vector<Worklist> parts;
-    std::vector<pgdr::Region_3> regions;
+    std::vector<pgdr::Territory_id> territories;
   };
   Division divide(Worker&, Worklist&, const pgdr::Leaf_task&, std::size_t, unsigned) { return {}; }
   void unite(Worklist&, std::vector<Worklist>&, double, double) const {}

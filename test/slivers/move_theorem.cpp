@@ -39,11 +39,11 @@ Moved moved(const pgdr::Plc& plc, double size, std::size_t territories, double s
   Mesh mesh = refined(plc, size, parameters);
   Tr& tr = mesh.triangulation();
   const Criteria criteria(2, pgdr::Uniform_sizing_field(size), mesh.subdomains(), pgdr::unit_of(mesh.domain()));
-  pgdr::mark_territories(tr, pgdr::Territory_map(pgdr::sample_vertices(tr, tr.number_of_vertices()), territories, share));
+  const pgdr::Territories_3<Tr> division(tr, {pgdr::sample_vertices(tr, tr.number_of_vertices()), territories, share});
 
   std::vector<std::vector<Tr::Vertex_handle>> parts(territories);
   for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v)
-    if (v->in_dimension() == 3 && v->cell()->subdomain() != 0) parts[v->territory() - 1u].push_back(v);
+    if (v->in_dimension() == 3 && v->cell()->subdomain() != 0) parts[division.of(pgdr::position(Tr::Vertex_handle(v)))].push_back(v);
   const auto place = [](Tr::Vertex_handle v) { return std::tuple(v->point().x(), v->point().y(), v->point().z()); };
   for (auto& part : parts) std::ranges::sort(part, {}, place);
 
@@ -54,7 +54,7 @@ Moved moved(const pgdr::Plc& plc, double size, std::size_t territories, double s
   Moved result;
   const double wanted = pgdr::cosine_of_degrees(14);
   for (const std::size_t k : turns) {
-    Mover mover(tr, mesh.complex(), {criteria, 0}, {static_cast<std::uint16_t>(k + 1)});
+    Mover mover(tr, mesh.complex(), {criteria, 0}, division[k]);
     for (const Tr::Vertex_handle v : parts[k])
       for (const Mover::Outcome outcome : {mover.improve(v, wanted), mover.smooth(v, wanted)}) {
         result.moves += outcome == Mover::Outcome::moved;

@@ -2,8 +2,11 @@
 #ifndef PGDR_MESH_MESH_TRIANGULATION_3_H
 #define PGDR_MESH_MESH_TRIANGULATION_3_H
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -14,6 +17,7 @@
 #include <pgdr/mesh/in_ball_filter.h>
 #include <pgdr/mesh/mesh_cell_base_3.h>
 #include <pgdr/mesh/mesh_vertex_base_3.h>
+#include <pgdr/mesh/territory_3.h>
 #include <pgdr/mesh/tetrahedron_ball.h>
 
 namespace pgdr {
@@ -44,6 +48,12 @@ class Mesh_triangulation_3
   void set_listener(const Listener* listener) { listener_ = listener; }
   void tell(Vertex_handle v) const {
     if (listener_) (*listener_)(to_vec(v->point()), v->in_dimension());
+  }
+
+  /// The first of so many numbers in a row that no vertex has, for `Territory_3`. \pre no other thread works
+  std::uint32_t reserve_territories(std::size_t count) {
+    this->infinite_vertex()->set_territory(Territory_id::everybody);
+    return std::exchange(next_territory_, next_territory_ + static_cast<std::uint32_t>(count));
   }
 
   /// Whether the open circumball of c holds p, ties broken by CGAL's symbolic perturbation. Exact.
@@ -81,6 +91,7 @@ class Mesh_triangulation_3
 
  private:
   const Listener* listener_ = nullptr;
+  std::uint32_t next_territory_ = 1;
 };
 
 /// Coordinates of a vertex, rounded to double.

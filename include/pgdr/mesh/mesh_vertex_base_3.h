@@ -55,10 +55,10 @@ class Mesh_vertex_base_3 : public Vb {
   std::uint32_t number() const { return number_; }
   void set_number(std::uint32_t n) { number_ = n; }
 
-  /// Number of the territory that the vertex belongs to, see `Territory_3`. Atomic, since its owner may give it away
+  /// Number of the territory that the vertex belongs to, see `Territory_3`. Atomic, since its owner may take it or give it away
   /// while others look whether it is theirs.
-  std::uint16_t territory() const { return std::atomic_ref(territory_).load(std::memory_order_relaxed); }
-  void set_territory(std::uint16_t t) { std::atomic_ref(territory_).store(t, std::memory_order_relaxed); }
+  std::uint32_t territory() const { return std::atomic_ref(territory_).load(std::memory_order_relaxed); }
+  void set_territory(std::uint32_t t) { std::atomic_ref(territory_).store(t, std::memory_order_relaxed); }
 
  private:
   static float rounded_down(double r) {
@@ -71,7 +71,7 @@ class Mesh_vertex_base_3 : public Vb {
   std::array<std::uint32_t, 2> subsegments_{none, none};
   float insertion_radius_ = 0;
   float relaxed_radius_ = 0;
-  mutable std::uint16_t territory_ = 0;
+  mutable std::uint32_t territory_ = 0;
   std::uint8_t dimension_ = 3;
   bool is_crossing_ = false;
 };

@@ -58,7 +58,7 @@ class Delaunay_leaf_refiner_3 {
   /// The active elements of a worklist, divided among territories.
   struct Division {
     std::vector<Worklist> parts;
-    std::vector<Region_3> regions;
+    std::vector<Territory_id> territories;
   };
 
   Delaunay_leaf_refiner_3(Tr& tr, Complex& complex, const Acute_neighborhood_3& acute, const Criteria& criteria,
@@ -123,7 +123,7 @@ class Delaunay_leaf_refiner_3 {
       }
       if (task.features_only) break;
       if (!features.stranded().empty()) {
-        if (task.territory == 0) break;
+        if (task.territory.is_everything()) break;
         s.cede_unlabelled();
       }
       // Only now, with every facet whole, is it known again on which side of it a new tetrahedron is.
@@ -133,7 +133,7 @@ class Delaunay_leaf_refiner_3 {
         continue;
       }
       if (done >= task.pause_after && !list.has_steep()) break;
-      if (task.territory != 0 && is_in_vain(s, done)) break;
+      if (!task.territory.is_everything() && is_in_vain(s, done)) break;
       if (!list.retries_.empty()) {
         const auto errand = list.retries_.pop();
         if (errand->cell.is_live()) refine(s, errand->cell, {std::move(errand->refused), errand->guard.is_strict});
@@ -157,7 +157,9 @@ class Delaunay_leaf_refiner_3 {
   /// territory stays; another `round` has other borders. \pre nobody else is at work
   Division divide(Worker& w, Worklist& list, const Leaf_task& task, std::size_t round, unsigned halvings) {
     constexpr std::array<double, 3> shares{0.5, 0.4, 0.6};
-    constexpr std::size_t most_samples = 16384;
+    constexpr std::size_t samples_for_part = 256;
+    // A task that pauses after a thousand points leaves the others as they were.
+    const std::size_t most_for_part = halvings > 0 ? 4096 : std::numeric_limits<std::size_t>::max();
     Division division;
     if (list.is_torn()) return division;
     {
@@ -166,13 +168,13 @@ class Delaunay_leaf_refiner_3 {
     }
     const std::size_t n = territory_count(list.active(), halvings);
     if (n == 0) return division;
+    const std::size_t most_samples = samples_for_part * n;
     std::vector<Territory_map::Item> sample;
     list.sample_active(most_samples, [&](const Cell_id& id) { sample.push_back({points_.roughly(id.cell), box_of(id.cell)}); });
-    const Territory_map map(sample.empty() ? sample_vertices(tr_, most_samples) : std::move(sample), n, shares[round % shares.size()]);
-    mark_territories(tr_, map);
+    const Territories_3<Tr> territories(tr_, {sample.empty() ? sample_vertices(tr_, most_samples) : std::move(sample), n, shares[round % shares.size()]});
     division.parts.resize(n);
-    for (std::size_t k = 0; k < n; ++k) division.regions.push_back(map.region(k));
-    list.divide(division.parts, Territory_of_3<Tr>(complex_));
+    for (std::size_t k = 0; k < n; ++k) division.territories.push_back(territories[k]);
+    list.divide(division.parts, Territory_of_3<Tr>(complex_, territories), most_for_part);
     return division;
   }
 
@@ -360,7 +362,7 @@ class Delaunay_leaf_refiner_3 {
   Cell_id steep_before_feature(Session& s) {
     constexpr std::size_t at_once = 64;  // new tetrahedra to be measured
     constexpr double much_larger = 4;  // than the ball of the piece
-    if (s.task().features_only || s.task().territory != 0) return {};
+    if (s.task().features_only || !s.task().territory.is_everything()) return {};
     const bool takes_fresh = s.features().fresh_cells().size() > at_once;
     if (!takes_fresh && !s.list().has_steep()) return {};
     const double radius = s.features().next_radius();
@@ -371,7 +373,7 @@ class Delaunay_leaf_refiner_3 {
 
   /// Whether the cavity will hardly be within the territory: there are vertices around the Steiner point at about this distance.
   static bool is_near_border(const Session& s, const Steiner_attempt_3<Tr>& t) {
-    if (s.task().territory == 0) return false;
+    if (s.task().territory.is_everything()) return false;
     const double r = std::sqrt(t.ball.squared_radius);
     const Vec_3 all{r, r, r};
     return !s.task().region.contains(t.at - all) || !s.task().region.contains(t.at + all);
@@ -386,7 +388,7 @@ class Delaunay_leaf_refiner_3 {
     s.star().clear();
     if (!s.task().region.contains(t.at) || is_near_border(s, t)) return room_.hand_on(s, t);
     if (t.is_outside()) return outside_.refine(s, t);
-    if (s.task().territory != 0 && is_steep(t.ball)) return room_.hand_on(s, t);
+    if (!s.task().territory.is_everything() && is_steep(t.ball)) return room_.hand_on(s, t);
     inside_.refine(s, t);
   }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <pgdr/conforming/constraint_complex_3.h>
@@ -42,22 +43,23 @@ std::vector<Territory_map::Item> sample_vertices(const Tr& tr, std::size_t most)
   return sample;
 }
 
-/// Numbers every vertex with its territory, from 1 on; no other numbers are left. `for_vertices(f)`: calls f(v) for each finite vertex.
-template <class Tr, class For_vertices>
-void mark_territories(Tr& tr, const Territory_map& map, const For_vertices& for_vertices) {
-  for_vertices([&map](typename Tr::Vertex_handle v) { v->set_territory(static_cast<std::uint16_t>(1 + map(position(v)))); });
-  tr.infinite_vertex()->set_territory(Territory_3<Tr>::everybody);
-}
-
-/// The same, one vertex after the other.
+/// A division of space among territories. It ends when there is another one of the triangulation.
 template <class Tr>
-void mark_territories(Tr& tr, const Territory_map& map) {
-  mark_territories(tr, map, [&tr](const auto& f) {
-    for (auto v = tr.finite_vertices_begin(); v != tr.finite_vertices_end(); ++v) f(v);
-  });
-}
+class Territories_3 {
+ public:
+  Territories_3(Tr& tr, Territory_map map) : map_(std::move(map)), first_(tr.reserve_territories(map_.parts() + 1)) {}
 
-/// Tells to which territory, or to none, the items of a worklist belong.
+  std::size_t size() const { return map_.parts(); }
+  Territory_3<Tr> operator[](std::size_t k) const { return {{first_ + 1 + static_cast<std::uint32_t>(k), first_, map_.region(k)}}; }
+  /// The one that a point is in.
+  std::size_t of(const Vec_3& p) const { return map_(p); }
+
+ private:
+  Territory_map map_;
+  std::uint32_t first_;
+};
+
+/// Tells to which territory, from 1 on, or to none, 0, the items of a worklist belong. \pre no task is at work, or was, in any of them
 template <class Tr>
 class Territory_of_3 {
  public:
@@ -66,7 +68,9 @@ class Territory_of_3 {
   using Worklist = Leaf_worklist_3<Tr>;
   using Errand = typename Worklist::Errand;
 
-  explicit Territory_of_3(const Complex& complex) : complex_(complex) {}
+  Territory_of_3(const Complex& complex, const Territories_3<Tr>& territories) : complex_(complex), territories_(territories) {
+    for (std::size_t k = 0; k < territories.size(); ++k) regions_.push_back(territories[k].region);
+  }
 
   std::uint16_t operator()(const typename Worklist::Cell_id& id) const {
     if (!id.is_live()) return Worklist::dead;
@@ -92,21 +96,24 @@ class Territory_of_3 {
     return complex_.is_live_subfacet(piece) ? common(complex_.subfacet(piece.slot).vertices) : Worklist::dead;
   }
 
-  /// The only number among vertices, or 0; the infinite vertex does not count.
+  /// That of all of the vertices, or 0; the infinite vertex does not count.
   template <std::size_t n>
-  static std::uint16_t common(const std::array<Vertex_handle, n>& vertices) {
-    constexpr std::uint16_t everybody = Territory_3<Tr>::everybody;
-    std::uint16_t t = everybody;
+  std::uint16_t common(const std::array<Vertex_handle, n>& vertices) const {
+    std::size_t t = regions_.size();
     for (const Vertex_handle v : vertices) {
-      const std::uint16_t u = v->territory();
-      if (u == everybody || u == t) continue;
-      if (t != everybody) return 0;
-      t = u;
+      if (v->territory() == Territory_id::everybody) continue;
+      const Vec_3 p = position(v);
+      if (t == regions_.size())
+        t = territories_.of(p);
+      else if (!regions_[t].contains(p))
+        return 0;
     }
-    return t;
+    return static_cast<std::uint16_t>(t + 1);
   }
 
   const Complex& complex_;
+  const Territories_3<Tr>& territories_;
+  std::vector<Region_3> regions_;
 };
 
 }  // namespace pgdr

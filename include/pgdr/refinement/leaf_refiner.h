@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <pgdr/domain/region_3.h>
+#include <pgdr/mesh/territory_3.h>
 
 namespace pgdr {
 
@@ -29,7 +30,7 @@ struct Leaf_task {
   std::size_t pause_after = std::numeric_limits<std::size_t>::max();  ///< it ends after so many, as soon as no facet is torn
   bool features_only = false;  ///< elements in the volume have to wait: a facet near by is torn
   std::uint16_t tag = 0;       ///< checked runs: names the task among the running ones; 0: no checks
-  std::uint16_t territory = 0;  ///< number of the territory that it has to keep to; 0: everything in the region
+  Territory_id territory;      ///< that it has to keep to
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -77,7 +78,7 @@ struct Scan_result {
 /// it takes it from all worklists that are torn.
 /// `estimate_outside` tells how many points the elements outside the domain ask for at a smaller target.
 /// `divide` hands the active elements of a worklist that is everything out to *territories* (`Territory_3`), parts that `drain`
-/// may work on at once, each with its number, from 1 on, and its region in the task; `unite` takes back what is left of them.
+/// may work on at once, each with its territory and the territory's region in the task; `unite` takes back what is left of them.
 /// `scan` looks at all elements that meet a box, to tell whether those that are not inside a hole in it have m below a
 /// bound; it only reads.
 template <class R>
@@ -101,7 +102,7 @@ concept LeafRefiner = requires(R refiner, typename R::Worker& worker, typename R
   { refiner.estimate_outside(const_list, number) } -> std::convertible_to<double>;
   { refiner.volumes() } -> std::same_as<Volumes>;
   { refiner.divide(worker, list, task, std::size_t{}, unsigned{}).parts[0] } -> std::convertible_to<typename R::Worklist&>;
-  { refiner.divide(worker, list, task, std::size_t{}, unsigned{}).regions[0] } -> std::convertible_to<Region_3>;
+  { refiner.divide(worker, list, task, std::size_t{}, unsigned{}).territories[0] } -> std::convertible_to<Territory_id>;
   { refiner.unite(list, parts, number, number) };
   { refiner.scan(box, box, number, const_list) } -> std::same_as<Scan_result>;
   { list.reset_coarsest(number) };

@@ -95,7 +95,7 @@ class Leaf_session_3 {
     for (const Cell_id& id : f.unlabelled_cells())
       if (id.is_live())
         for (int i = 0; i < 4; ++i)
-          if (f.cavity().territory().leads_on(id.cell->vertex(i))) id.cell->vertex(i)->set_territory(0);
+          if (f.cavity().territory().leads_on(id.cell->vertex(i))) id.cell->vertex(i)->set_territory(task_.territory.first);
     ceded_.insert(ceded_.end(), f.unlabelled_cells().begin(), f.unlabelled_cells().end());
     f.unlabelled_cells().clear();
     f.note_mended();

@@ -180,30 +180,44 @@ class Leaf_worklist_3 {
   }
 
   /// Hands live active elements out: `number_of` tells for a tetrahedron, an errand or a request, and whether that is for a
-  /// subsegment, the number of a part, from 1 on, 0 for what stays, or `dead` for what is not needed any more.
+  /// subsegment, the number of a part, from 1 on, 0 for what stays, or `dead` for what is not needed any more. `most`: tetrahedra for a part.
   /// \pre nothing is torn or fresh
   template <class Number_of>
-  void divide(std::vector<Leaf_worklist_3>& parts, const Number_of& number_of) {
-    // Whether something stays.
-    const auto hand_out_from = [&](auto&& queue, const auto& queue_of, const auto&... more) {
-      bool stays = false;
+  void divide(std::vector<Leaf_worklist_3>& parts, const Number_of& number_of, std::size_t most) {
+    const auto hand_out = [&](const auto& queue_of, const auto&... more) {
+      auto queue = std::exchange(queue_of(*this), {});
       while (!queue.empty()) {
-        prefetch_from(queue);
         auto item = queue.pop();
         const std::uint16_t k = number_of(item, more...);
-        stays |= k == 0;
         if (k != dead) queue_of(k == 0 ? *this : parts[k - 1u]).push(std::move(item));
       }
-      return stays;
     };
-    const auto hand_out = [&](const auto& queue_of, const auto&... more) { hand_out_from(std::exchange(queue_of(*this), {}), queue_of, more...); };
     // Where large ones stay, smaller ones around them are not handed out either: they would come first then, with all the large cavities that
     // `Radius_queue` is to spare (a15: 30 seconds instead of 22).
-    const auto hand_out_largest = [&](const auto& queue_of) {
-      while (!queue_of(*this).empty() && !hand_out_from(queue_of(*this).pop_class(), queue_of)) {}
+    std::vector<std::size_t> counts(parts.size(), 0);
+    std::size_t full = 0;
+    const auto hand_out_largest = [&](Radius_queue<Cell_id> Leaf_worklist_3::*queue) {
+      for (bool stays = false; !stays && !(this->*queue).empty();) {
+        Fifo<Cell_id> items = (this->*queue).pop_class(), kept;
+        while (!items.empty() && full < parts.size()) {
+          prefetch_from(items);
+          Cell_id item = items.pop();
+          const std::uint16_t k = number_of(item);
+          if (k == dead) continue;
+          const bool is_handed_out = k != 0 && counts[k - 1u] < most;
+          if (is_handed_out)
+            (parts[k - 1u].*queue).push(item);
+          else
+            kept.push(item);
+          if (is_handed_out && ++counts[k - 1u] == most) ++full;
+        }
+        items.take_all(kept);
+        stays = !items.empty();
+        (this->*queue).push_class(std::move(items));
+      }
     };
-    hand_out_largest([](auto& list) -> auto& { return list.active_; });
-    hand_out_largest([](auto& list) -> auto& { return list.active_outside_; });
+    hand_out_largest(&Leaf_worklist_3::active_);
+    hand_out_largest(&Leaf_worklist_3::active_outside_);
     hand_out([](auto& list) -> auto& { return list.errands_; });
     hand_out([](auto& list) -> auto& { return list.retries_; }, true);
     hand_out([](auto& list) -> auto& { return list.queues_.subsegments; }, true);

@@ -48,6 +48,13 @@ class Radius_queue {
     return items;
   }
 
+  /// Gives back what is left of them. \pre no others have the same size
+  void push_class(Fifo<Item> items) {
+    if (items.empty()) return;
+    size_ += items.size();
+    classes_[exponent(items[0].radius)] = std::move(items);
+  }
+
   /// Those that come next. \pre not empty
   const Fifo<Item>& next() const { return classes_.begin()->second; }
 

@@ -53,8 +53,8 @@ class Divided_work {
         [&](std::size_t k) {
           Leaf_task part = task;
           if (halvings_ > 0) part.pause_after = most_in_larger;
-          part.region = division.regions[k];
-          part.territory = static_cast<std::uint16_t>(k + 1);
+          part.territory = division.territories[k];
+          part.region = part.territory.region;
           if (task.quota != Leaf_task{}.quota) part.quota = task.quota / n + (k < task.quota % n ? 1 : 0);
           results[k] = drain(division.parts[k], part);
         });

@@ -279,7 +279,7 @@ class Epoch_scheduler {
       const double start = recorder_.now();
       if (parameters_.check_zones) mine.tag = thread_tag();
       const Drain_result result = engine_.drain(worker(), mine, part);
-      recorder_.leaf(octree_[0], mine.territory, statistics_.epochs.size() - 1, wave_, result.inserted, start);
+      recorder_.leaf(octree_[0], static_cast<std::uint16_t>(mine.territory.number - mine.territory.first), statistics_.epochs.size() - 1, wave_, result.inserted, start);
       return result;
     });
     if (!round) return false;

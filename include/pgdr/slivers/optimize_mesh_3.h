@@ -17,7 +17,6 @@
 #include <pgdr/refinement/divide_worklist_3.h>
 #include <pgdr/report/run_statistics.h>
 #include <pgdr/slivers/vertex_mover_3.h>
-#include <pgdr/slivers/vertex_territories_3.h>
 
 namespace pgdr {
 
@@ -87,11 +86,11 @@ class Mesh_optimizer_3 {
   /// With other borders in every round.
   std::size_t divided(const std::vector<Vertex_handle>& vertices, std::size_t n, std::size_t round) {
     constexpr std::size_t most_samples = 100'000;
-    mark_territories_in_parallel(tr_, Territory_map(sample_vertices(tr_, most_samples), n, shares[round % shares.size()]));
+    const Territories_3<Tr> territories(tr_, {sample_vertices(tr_, most_samples), n, shares[round % shares.size()]});
     std::vector<std::vector<Vertex_handle>> parts(n);
-    for (const Vertex_handle v : vertices) parts[v->territory() - 1u].push_back(v);
+    for (const Vertex_handle v : vertices) parts[territories.of(position(v))].push_back(v);
     std::vector<std::size_t> moved(n);
-    parallel_for(0, n, [&](std::size_t k) { moved[k] = move_all(parts[k], {static_cast<std::uint16_t>(k + 1)}); });
+    parallel_for(0, n, [&](std::size_t k) { moved[k] = move_all(parts[k], territories[k]); });
     return std::accumulate(moved.begin(), moved.end(), std::size_t{0});
   }
 

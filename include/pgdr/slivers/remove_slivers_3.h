@@ -20,7 +20,6 @@
 #include <pgdr/report/run_statistics.h>
 #include <pgdr/slivers/feature_sliver_remover_3.h>
 #include <pgdr/slivers/sliver_remover_3.h>
-#include <pgdr/slivers/vertex_territories_3.h>
 
 namespace pgdr {
 
@@ -39,7 +38,7 @@ class Sliver_removal_3 {
   /// `wanted`: the cosine of the angle. `engine` refines what is split. `most_vertices`: of the triangulation.
   Sliver_removal_3(Tr& tr, Complex& complex, const Criteria& criteria, double min_edge_length, double wanted, Engine& engine,
                    std::size_t most_vertices, const std::atomic<bool>* cancel)
-      : tr_(tr), complex_(complex), judge_(criteria, min_edge_length, &engine.acute()), wanted_(wanted), engine_(engine), most_vertices_(most_vertices),
+      : tr_(tr), known_before_(tr.reserve_territories(1)), complex_(complex), judge_(criteria, min_edge_length, &engine.acute()), wanted_(wanted), engine_(engine), most_vertices_(most_vertices),
         cancel_(cancel) {}
 
   /// `notify`: told before every round how many slivers are to be looked at.
@@ -65,7 +64,6 @@ class Sliver_removal_3 {
  private:
   static constexpr std::size_t most_rounds = 3;  ///< with territories
   static constexpr int most_passes = 6;          ///< three are enough for most models
-  static constexpr std::uint16_t known_before = 1;  ///< territory of the vertices that there were; new ones, with nobody else at work, have 0
 
   /// Books the time until it is destroyed.
   class Side_by_side {
@@ -96,9 +94,9 @@ class Sliver_removal_3 {
     return all;
   }
 
-  /// Those at vertices that were inserted since all were given to `known_before`. Others were given up, or have been looked at.
+  /// Those at vertices that were inserted since all were given to `known_before_`. Others were given up, or have been looked at.
   std::vector<Sliver> find_new_slivers() {
-    const auto is_new = [this](Vertex_handle v) { return v != tr_.infinite_vertex() && v->territory() != known_before; };
+    const auto is_new = [this](Vertex_handle v) { return v != tr_.infinite_vertex() && v->territory() != known_before_; };
     std::vector<Sliver> found;
     std::vector<Cell_handle> around;
     for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) {
@@ -121,12 +119,7 @@ class Sliver_removal_3 {
   }
 
   std::vector<Sliver> alone(std::vector<Sliver> slivers) {
-    give_all(0);
     return take(Remover(tr_, complex_, judge_, wanted_, {}, quota(), cancel_).run(std::move(slivers)));
-  }
-
-  void give_all(std::uint16_t territory) {
-    for_vertices_in_parallel(tr_, [territory](Vertex_handle v) { v->set_territory(territory); });
   }
 
   std::vector<Sliver> divided(std::vector<Sliver> slivers, std::size_t n, std::size_t round) {
@@ -136,19 +129,19 @@ class Sliver_removal_3 {
       const Vec_3 center = slivers[k].center();
       sample[k] = {center, {center, center}};
     });
-    mark_territories_in_parallel(tr_, Territory_map(std::move(sample), n, shares[round]));
-    const Territory_of_3<Tr> territory_of(complex_);
-    std::vector<std::uint16_t> territories(slivers.size());
-    for_all(slivers, [&](std::size_t k) { territories[k] = territory_of({slivers[k].cell, slivers[k].generation}); });
+    const Territories_3<Tr> territories(tr_, {std::move(sample), n, shares[round]});
+    const Territory_of_3<Tr> number_of(complex_, territories);
+    std::vector<std::uint16_t> numbers(slivers.size());
+    for_all(slivers, [&](std::size_t k) { numbers[k] = number_of({slivers[k].cell, slivers[k].generation}); });
     std::vector<std::vector<Sliver>> parts(n);
     std::vector<Sliver> left;
-    for (std::size_t k = 0; k < slivers.size(); ++k) (territories[k] == 0 ? left : parts[territories[k] - 1u]).push_back(slivers[k]);
+    for (std::size_t k = 0; k < slivers.size(); ++k) (numbers[k] == 0 ? left : parts[numbers[k] - 1u]).push_back(slivers[k]);
     std::vector<typename Remover::Result> results(n);
     const std::size_t share = quota() / n;
     {
       const Side_by_side timer(statistics_);
       parallel_for(0, n, [&](std::size_t k) {
-        results[k] = Remover(tr_, complex_, judge_, wanted_, {static_cast<std::uint16_t>(k + 1)}, share, cancel_).run(std::move(parts[k]));
+        results[k] = Remover(tr_, complex_, judge_, wanted_, territories[k], share, cancel_).run(std::move(parts[k]));
       });
     }
     for (auto& r : results) {
@@ -178,7 +171,7 @@ class Sliver_removal_3 {
     std::erase_if(hopeless_, [](const Sliver& s) { return !s.is_live(); });
     if (hopeless_.empty()) return false;
     std::sort(hopeless_.begin(), hopeless_.end());
-    give_all(known_before);
+    parallel_for_each(tr_.finite_vertices_begin(), tr_.finite_vertices_end(), default_grain, [this](auto v) { v->set_territory(known_before_); });
     const std::size_t inserted = remover.remove(hopeless_);
     is_any_given_up_ |= std::ranges::any_of(hopeless_, &Sliver::is_live);
     hopeless_.clear();
@@ -187,6 +180,7 @@ class Sliver_removal_3 {
   }
 
   Tr& tr_;
+  const std::uint32_t known_before_;  ///< number of the vertices that there were; new ones, with nobody else at work, have 0
   Complex& complex_;
   Tetrahedron_judge<Criteria> judge_;
   double wanted_;
