@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
@@ -134,6 +135,29 @@ TEST_CASE("New vertices belong to the territory of the task that inserts them", 
   CHECK(cavity.commit(p)->territory() == 2);
   for (const Cell_handle c : cavity.star()) CHECK(Territory{2}.owns(c));
   CHECK(d.tr.is_valid());
+}
+
+TEST_CASE("A vertex is of the territory that it lies in, unless it was numbered in this division", "[mesh]") {
+  Divided d(6);
+  const std::uint32_t before = d.tr.reserve_territories(7), first = d.tr.reserve_territories(3);
+  CHECK(first == before + 7);
+  const double inf = std::numeric_limits<double>::infinity();
+  const Territory left{{first + 1, first, {{-inf, -inf, -inf}, {0.5, inf, inf}}}}, right{{first + 2, first, {{0.5, -inf, -inf}, {inf, inf, inf}}}};
+  CHECK(left.owns(d.tr.infinite_vertex()));
+  CHECK_FALSE(left.leads_on(d.tr.infinite_vertex()));
+  for (auto v = d.tr.finite_vertices_begin(); v != d.tr.finite_vertices_end(); ++v) {
+    if (d.random.between(0, 1) < 0.3) v->set_territory(before + 1);
+    const bool is_left = v->point().x() < 0.5;
+    CHECK(left.owns(v) == is_left);
+    CHECK(right.leads_on(v) == !is_left);
+    CHECK(v->territory() == (is_left ? left : right).number);
+    v->set_territory(first);  // given away
+    CHECK_FALSE(left.owns(v));
+    CHECK_FALSE(right.owns(v));
+    v->set_territory(left.number);  // or inserted by the other task
+    CHECK(left.owns(v));
+    CHECK_FALSE(right.owns(v));
+  }
 }
 
 TEST_CASE("A walk finds a tetrahedron in conflict, and does not leave its territory", "[mesh]") {

@@ -54,5 +54,15 @@ TEST_CASE("Large elements come before small ones, those of about the same size a
     }
   }
   CHECK(queue.size() == n - popped);
+  // What is left of a class that was taken comes first again.
+  auto rest = queue.pop_class();
+  const Item first = rest.pop();
+  const std::size_t left = rest.size();
+  queue.push_class(std::move(rest));
+  CHECK(queue.size() == n - popped - 1);
+  CHECK(size_class(queue.next()[0]) == size_class(first));
+  CHECK(queue.next().size() == left);
+  queue.push_class({});
+  CHECK(queue.size() == n - popped - 1);
   CHECK(queue.pop().radius < 0.5);
 }

@@ -175,11 +175,19 @@ class Feature_refiner_3 {
   /// encroaches stays so.
   template <class Good>
   bool put_on_piece(std::uint32_t slot, bool is_subsegment, const Vec_3& m, const Good& is_good) {
-    const auto accept = [&](std::uint32_t split, const Vec_3& at) { return !tears_others(split) && is_good(std::as_const(cavity_), at); };
-    const Split_outcome outcome = is_subsegment ? split_subsegment_at(slot, m, Split_reason::flat, {}, accept)
-                                                : split_subfacet_at(slot, m, Split_reason::flat, {}, accept);
+    const Split_outcome outcome = split_flat(slot, is_subsegment, m, is_good);
     close(most_images);
     return outcome == Split_outcome::inserted;
+  }
+
+  /// Looks at a point instead: changes nothing, and calls `look(cavity, at)` where `put_on_piece` asks whether it is good. False if that cannot be
+  /// told within the territory.
+  template <class Look>
+  bool look_at_piece(std::uint32_t slot, bool is_subsegment, const Vec_3& m, const Look& look) {
+    is_looking_ = true;
+    const Split_outcome outcome = split_flat(slot, is_subsegment, m, [&](const Cavity_3<Tr>& cavity, const Vec_3& at) { return look(cavity, at), false; });
+    is_looking_ = false;
+    return outcome != Split_outcome::elsewhere;
   }
 
   /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
@@ -284,6 +292,12 @@ class Feature_refiner_3 {
   static constexpr auto always = [](std::uint32_t, const Vec_3&) { return true; };
   static constexpr std::size_t most_images = 10000;  ///< and pieces that they delete, of one point
 
+  template <class Good>
+  Split_outcome split_flat(std::uint32_t slot, bool is_subsegment, const Vec_3& m, const Good& is_good) {
+    const auto accept = [&](std::uint32_t split, const Vec_3& at) { return !tears_others(split) && is_good(std::as_const(cavity_), at); };
+    return is_subsegment ? split_subsegment_at(slot, m, Split_reason::flat, {}, accept) : split_subfacet_at(slot, m, Split_reason::flat, {}, accept);
+  }
+
   /// Splits a subsegment at m, unless `accept(slot, m)` says no when the cavity is found, and the stars in the facets are planned.
   template <class Accept>
   Split_outcome split_subsegment_at(std::uint32_t slot, const Vec_3& m, Split_reason reason, const Split_guard& guard, const Accept& accept) {
@@ -366,7 +380,7 @@ class Feature_refiner_3 {
   /// Whether a point has images that may lie in another territory. They have to be there before anything else is: facets that
   /// meet at a small angle and get points at unlike places give each other ever more of them.
   bool needs_to_be_alone(const Feature_id& on, const Vec_3& m, double radius) const {
-    return !territory().is_everything() && images_.has_images(on, m, radius);
+    return !is_looking_ && !territory().is_everything() && images_.has_images(on, m, radius);
   }
 
   /// Flips an edge of a missing subfacet where the sheet is not Delaunay, if there is one.
@@ -675,6 +689,7 @@ class Feature_refiner_3 {
   std::size_t inserted_ = 0;
   bool keep_fresh_ = false;
   bool torn_ = false;
+  bool is_looking_ = false;  ///< no point is inserted, so that none needs images
   bool is_putting_images_ = false;
   const std::atomic<bool>* cancel_ = nullptr;
 };

@@ -267,6 +267,18 @@ class Delaunay_leaf_refiner_3 {
     return is_put ? 1 + drain(w, task, list).inserted : 0;
   }
 
+  /// Looks at a point on a piece of a feature within a territory, as `Feature_refiner_3::look_at_piece`. \pre nothing is missing, and nobody
+  /// changes the mesh
+  template <class Look>
+  bool look_at_piece(Worker& w, const Territory_id& territory, const Piece_id& piece, bool is_subsegment, const Vec_3& at, const Look& look) {
+    Worklist list;
+    Leaf_task task;
+    task.territory = territory;
+    task.region = territory.region;
+    const Session s(tr_, w, task, list);
+    return w.features.look_at_piece(piece.slot, is_subsegment, at, look);
+  }
+
   /// Splits one piece of a feature, as far as the guard allows, and refines what is missing or poor after that. \pre no other thread
   /// works, and nothing is missing or poor
   Drain_result split_piece(Worker& w, const Piece_id& piece, bool is_subsegment, const Split_guard& guard, const std::atomic<bool>* cancel) {

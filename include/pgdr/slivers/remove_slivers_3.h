@@ -15,9 +15,8 @@
 
 #include <pgdr/parallel/parallel_for.h>
 #include <pgdr/parallel/parallel_walk.h>
-#include <pgdr/refinement/divide_worklist_3.h>
-#include <pgdr/refinement/territory_map.h>
 #include <pgdr/report/run_statistics.h>
+#include <pgdr/slivers/divide_slivers_3.h>
 #include <pgdr/slivers/feature_sliver_remover_3.h>
 #include <pgdr/slivers/sliver_remover_3.h>
 
@@ -94,9 +93,9 @@ class Sliver_removal_3 {
     return all;
   }
 
-  /// Those at vertices that were inserted since all were given to `known_before_`. Others were given up, or have been looked at.
+  /// Those at vertices that were inserted since all others were numbered. Others were given up, or have been looked at.
   std::vector<Sliver> find_new_slivers() {
-    const auto is_new = [this](Vertex_handle v) { return v != tr_.infinite_vertex() && v->territory() != known_before_; };
+    const auto is_new = [this](Vertex_handle v) { return v->territory() == 0; };
     std::vector<Sliver> found;
     std::vector<Cell_handle> around;
     for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) {
@@ -124,24 +123,20 @@ class Sliver_removal_3 {
 
   std::vector<Sliver> divided(std::vector<Sliver> slivers, std::size_t n, std::size_t round) {
     constexpr std::array<double, most_rounds> shares{0.5, 0.4, 0.6};
-    std::vector<Territory_map::Item> sample(slivers.size());
-    for_all(slivers, [&](std::size_t k) {
-      const Vec_3 center = slivers[k].center();
-      sample[k] = {center, {center, center}};
-    });
-    const Territories_3<Tr> territories(tr_, {std::move(sample), n, shares[round]});
-    const Territory_of_3<Tr> number_of(complex_, territories);
-    std::vector<std::uint16_t> numbers(slivers.size());
-    for_all(slivers, [&](std::size_t k) { numbers[k] = number_of({slivers[k].cell, slivers[k].generation}); });
-    std::vector<std::vector<Sliver>> parts(n);
-    std::vector<Sliver> left;
-    for (std::size_t k = 0; k < slivers.size(); ++k) (numbers[k] == 0 ? left : parts[numbers[k] - 1u]).push_back(slivers[k]);
+    const Divided_slivers_3<Tr> divided = divide_slivers(tr_, complex_, slivers, n, shares[round]);
+    const auto at = [&slivers](const std::vector<std::size_t>& positions) {
+      std::vector<Sliver> list;
+      list.reserve(positions.size());
+      for (const std::size_t k : positions) list.push_back(slivers[k]);
+      return list;
+    };
+    std::vector<Sliver> left = at(divided.left);
     std::vector<typename Remover::Result> results(n);
     const std::size_t share = quota() / n;
     {
       const Side_by_side timer(statistics_);
       parallel_for(0, n, [&](std::size_t k) {
-        results[k] = Remover(tr_, complex_, judge_, wanted_, territories[k], share, cancel_).run(std::move(parts[k]));
+        results[k] = Remover(tr_, complex_, judge_, wanted_, divided.territories[k], share, cancel_).run(at(divided.parts[k]));
       });
     }
     for (auto& r : results) {
@@ -150,13 +145,6 @@ class Sliver_removal_3 {
     }
     std::erase_if(left, [](const Sliver& s) { return !s.is_live(); });
     return left;
-  }
-
-  template <class F>
-  static void for_all(const std::vector<Sliver>& slivers, const F& f) {
-    parallel_for_chunks(slivers.size(), default_grain, [&f](std::size_t k, std::size_t end) {
-      for (; k < end; ++k) f(k);
-    });
   }
 
   std::vector<Sliver> take(typename Remover::Result&& result) {
@@ -180,7 +168,7 @@ class Sliver_removal_3 {
   }
 
   Tr& tr_;
-  const std::uint32_t known_before_;  ///< number of the vertices that there were; new ones, with nobody else at work, have 0
+  const std::uint32_t known_before_;  ///< number for the vertices that there are; new ones, with nobody else at work, have 0
   Complex& complex_;
   Tetrahedron_judge<Criteria> judge_;
   double wanted_;
