@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
@@ -53,11 +54,12 @@ class Feature_sliver_remover_3 {
   /// Tries to remove slivers; returns how many points were inserted. All by 1. and 2. first, which cost less. Places for these are looked for in the mesh
   /// as it is in the beginning.
   std::size_t remove(const std::vector<Sliver>& slivers) {
-    const std::vector<Choice> choices = choose_all(slivers);
+    const std::vector<std::uint8_t> stays = all_that_stay(slivers);
+    const std::vector<Choice> choices = choose_all(slivers, stays);
     std::size_t inserted = 0;
     for (const bool is_split : {false, true})
       for (std::size_t k = 0; k < slivers.size(); ++k)
-        if (slivers[k].is_live() && !is_left(slivers[k]) && !must_stop()) inserted += is_split ? split(slivers[k]) : put_point(slivers[k], choices[k]);
+        if (slivers[k].is_live() && !stays[k] && !must_stop()) inserted += is_split ? split(slivers[k]) : put_point(slivers[k], choices[k]);
     return inserted;
   }
 
@@ -67,15 +69,21 @@ class Feature_sliver_remover_3 {
   static constexpr double budget_share = 0.015;
   static constexpr std::size_t more_for_flat = 64;  ///< small meshes have flat tetrahedra, too
 
-  /// Whether it is one of those that stay.
-  bool is_left(const Sliver& s) const { return !Places::is_flat(s) && is_in_wedge(s.cell); }
+  /// Which are those between facets that meet at a small angle: as long as they live, their corners are what they are.
+  std::vector<std::uint8_t> all_that_stay(const std::vector<Sliver>& slivers) const {
+    std::vector<std::uint8_t> stays(slivers.size());
+    parallel_for_chunks(slivers.size(), default_grain, [&](std::size_t k, std::size_t end) {
+      for (; k < end; ++k) stays[k] = !Places::is_flat(slivers[k]) && is_in_wedge(slivers[k].cell);
+    });
+    return stays;
+  }
 
   bool must_stop() const {
     return tr_.number_of_vertices() >= most_vertices_ || (cancel_ && cancel_->load(std::memory_order_relaxed));
   }
 
   /// Looks for places, with all threads of the caller's arena; of slivers on borders for none.
-  std::vector<Choice> choose_all(const std::vector<Sliver>& slivers) {
+  std::vector<Choice> choose_all(const std::vector<Sliver>& slivers, const std::vector<std::uint8_t>& stays) {
     std::vector<Choice> choices(slivers.size(), Choice{.place = {}, .is_foreign = true});
     const std::size_t n = territory_count(slivers.size(), 0);
     if (n == 0) return choices;
@@ -83,21 +91,21 @@ class Feature_sliver_remover_3 {
     parallel_for(0, n, [&](std::size_t part) {
       Places places(tr_, complex_, judge_, wanted_, engine_, divided.territories[part]);
       for (const std::size_t k : divided.parts[part])
-        if (!must_stop() && !is_left(slivers[k])) choices[k] = places.choose(slivers[k]);
+        if (!must_stop() && !stays[k]) choices[k] = places.choose(slivers[k]);
     });
     return choices;
   }
 
   std::size_t put_point(const Sliver& s, const Choice& known) {
     if (!known.is_foreign) {
-      if (!known.place || is_spent(s, !known.is_strict)) return 0;
-      if (const std::size_t inserted = put_point_at(s, known); inserted > 0) return inserted;
+      if (!known.place) return 0;
+      if (const auto inserted = put_point_at(s, known); inserted != std::size_t{0}) return inserted.value_or(0);
     }
     const Choice choice = places_.choose(s);
-    return choice.place ? put_point_at(s, choice) : 0;
+    return choice.place ? put_point_at(s, choice).value_or(0) : 0;
   }
 
-  std::size_t put_point_at(const Sliver& s, const Choice& choice) {
+  std::optional<std::size_t> put_point_at(const Sliver& s, const Choice& choice) {
     return within_budget(s, !choice.is_strict, [&] {
       const auto is_good = [&](const Cavity_3<Tr>& cavity, const Vec_3& at) { return places_.is_good(s, choice.is_strict, cavity, at); };
       return engine_.put_on_piece(*worker_, choice.place->piece, choice.place->is_subsegment, choice.place->at, is_good);
@@ -108,24 +116,19 @@ class Feature_sliver_remover_3 {
     return within_budget(s, true, [&] {
       const auto cause = sliver_cause(complex_, s.cell);
       return cause ? engine_.split_piece(*worker_, cause->piece, cause->is_subsegment, cause->guard, cancel_).inserted : 0;
-    });
+    }).value_or(0);
   }
 
-  /// What `insert` inserts, if there is a budget left or it does not count.
-  std::size_t within_budget(const Sliver& s, bool may_count, const auto& insert) {
-    if (is_spent(s, may_count)) return 0;
-    const bool counts = may_count && counts_for_budget(s);
+  /// What `insert` inserts; none if the budget is spent and it counts.
+  std::optional<std::size_t> within_budget(const Sliver& s, bool may_count, const auto& insert) {
+    const bool flat = Places::is_flat(s);
+    const bool counts = may_count && (flat || is_next_to_poor(s.cell));
+    std::size_t& spent = flat ? spent_on_flat_ : spent_;
+    if (counts && spent >= (flat ? budget_ + more_for_flat : budget_)) return std::nullopt;
     const std::size_t inserted = insert();
-    if (counts) (Places::is_flat(s) ? spent_on_flat_ : spent_) += inserted;
+    if (counts) spent += inserted;
     return inserted;
   }
-
-  bool is_spent(const Sliver& s, bool may_count) {
-    const bool flat = Places::is_flat(s);
-    return may_count && (flat ? spent_on_flat_ >= budget_ + more_for_flat : spent_ >= budget_) && counts_for_budget(s);
-  }
-
-  bool counts_for_budget(const Sliver& s) { return Places::is_flat(s) || is_next_to_poor(s.cell); }
 
   /// Whether one of its edges is as short as a small dihedral angle makes it.
   bool is_in_wedge(Cell_handle c) const {

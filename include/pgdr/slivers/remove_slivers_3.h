@@ -95,7 +95,7 @@ class Sliver_removal_3 {
 
   /// Those at vertices that were inserted since all others were numbered. Others were given up, or have been looked at.
   std::vector<Sliver> find_new_slivers() {
-    const auto is_new = [this](Vertex_handle v) { return v->territory() == 0; };
+    const auto is_new = [](Vertex_handle v) { return v->territory() == 0; };
     std::vector<Sliver> found;
     std::vector<Cell_handle> around;
     for (auto v = tr_.finite_vertices_begin(); v != tr_.finite_vertices_end(); ++v) {
