@@ -80,12 +80,6 @@ class Feature_places_3 {
     return (is_strict ? value.strict : value.relaxed) < s.cosine;
   }
 
-  /// As only cocircular vertices make it, of which images next to small angles are many: no angle of the input is as small.
-  static bool is_flat(const Sliver& s) {
-    constexpr double flattest = 1 - 1.5e-12;  // the cosine of 1e-4 degrees
-    return s.cosine > flattest;
-  }
-
  private:
   static constexpr double refused = Tetrahedron_judge<Criteria>::refused;
   // Tetrahedra below 5 degrees, and how many there are, of a06, a07 and a20, with at most so many poor ones up to this ratio: none: 94 of
@@ -113,7 +107,7 @@ class Feature_places_3 {
     for (int i = 0; i < 4; ++i)
       if (c->subfacet(i) != Complex::none)
         list_places_on(c->subfacet(i));
-    if (!places_.empty() && !is_flat(s)) return;
+    if (!places_.empty() && !s.is_flat()) return;
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j)
         if (c->vertex(i)->in_dimension() < 3 && c->vertex(j)->in_dimension() < 3) list_places_at_edge(c, i, j);
@@ -140,7 +134,7 @@ class Feature_places_3 {
   /// Of a point with this cavity; as far as it may be below a limit.
   Value value_of(const Sliver& s, const Cavity_3<Tr>& cavity, const Vec_3& at, const Value& limit) const {
     if (std::ranges::find(cavity.cells(), s.cell) == cavity.cells().end()) return {};
-    const double ratio2 = std::max(most_ratio * most_ratio, is_flat(s) ? squared_ratio_of_poor(cavity) : 0);  // of tetrahedra that are refined later
+    const double ratio2 = std::max(most_ratio * most_ratio, s.is_flat() ? squared_ratio_of_poor(cavity) : 0);  // of tetrahedra that are refined later
     Value value{-1, -1};
     int poor = 0;
     for (const auto& [c, i] : cavity.boundary()) {

@@ -73,7 +73,7 @@ class Feature_sliver_remover_3 {
   std::vector<std::uint8_t> all_that_stay(const std::vector<Sliver>& slivers) const {
     std::vector<std::uint8_t> stays(slivers.size());
     parallel_for_chunks(slivers.size(), default_grain, [&](std::size_t k, std::size_t end) {
-      for (; k < end; ++k) stays[k] = !Places::is_flat(slivers[k]) && is_in_wedge(slivers[k].cell);
+      for (; k < end; ++k) stays[k] = !slivers[k].is_flat() && is_in_wedge(slivers[k].cell);
     });
     return stays;
   }
@@ -121,7 +121,7 @@ class Feature_sliver_remover_3 {
 
   /// What `insert` inserts; none if the budget is spent and it counts.
   std::optional<std::size_t> within_budget(const Sliver& s, bool may_count, const auto& insert) {
-    const bool flat = Places::is_flat(s);
+    const bool flat = s.is_flat();
     const bool counts = may_count && (flat || is_next_to_poor(s.cell));
     std::size_t& spent = flat ? spent_on_flat_ : spent_;
     if (counts && spent >= (flat ? budget_ + more_for_flat : budget_)) return std::nullopt;

@@ -44,6 +44,7 @@ class Sliver_removal_3 {
   Sliver_statistics run(const std::function<void(std::size_t)>& notify = {}) {
     std::vector<Sliver> slivers = find_slivers();
     statistics_.found = slivers.size();
+    give_up_pinched(slivers);
     Feature_sliver_remover_3<Tr, Criteria, Engine> on_features(tr_, complex_, judge_, wanted_, engine_, most_vertices_, cancel_);
     for (int pass = 0; pass < most_passes; ++pass) {
       for (std::size_t round = 0; !slivers.empty() && !is_cancelled(); ++round) {
@@ -54,6 +55,7 @@ class Sliver_removal_3 {
       }
       if (!remove_on_features(on_features)) break;
       slivers = find_new_slivers();
+      give_up_pinched(slivers);
     }
     // What is left of them all was given up, or not looked at.
     statistics_.left = slivers.empty() && !is_any_given_up_ ? 0 : find_slivers().size();
@@ -114,7 +116,11 @@ class Sliver_removal_3 {
 
   void add_if_sliver(Cell_handle c, std::vector<Sliver>& to) const {
     if (c->subdomain() == 0 || tr_.is_infinite(c)) return;
-    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) to.push_back(Sliver::of(c, cosine));
+    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) to.push_back(Sliver::of(c, cosine, wanted_));
+  }
+
+  void give_up_pinched(std::vector<Sliver>& slivers) {
+    is_any_given_up_ |= std::erase_if(slivers, [](const Sliver& s) { return s.is_pinched; }) > 0;
   }
 
   std::vector<Sliver> alone(std::vector<Sliver> slivers) {
@@ -150,6 +156,7 @@ class Sliver_removal_3 {
   std::vector<Sliver> take(typename Remover::Result&& result) {
     statistics_.moved += result.moved;
     statistics_.added += result.added;
+    give_up_pinched(result.hopeless);
     hopeless_.insert(hopeless_.end(), result.hopeless.begin(), result.hopeless.end());
     return std::move(result.foreign);
   }

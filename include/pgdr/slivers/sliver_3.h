@@ -16,14 +16,26 @@
 
 namespace pgdr {
 
-/// A tetrahedron with a small dihedral angle.
+/// A tetrahedron with a small dihedral angle. One that is *pinched* has it at a short edge that stays.
 template <class Tr>
 struct Sliver_3 {
   typename Tr::Cell_handle cell;
   std::uint32_t generation = 0;
   double cosine = 1;  ///< of its smallest dihedral angle
+  bool is_pinched = false;
 
-  static Sliver_3 of(typename Tr::Cell_handle c, double cosine) { return {c, c->generation(), cosine}; }
+  static Sliver_3 of(typename Tr::Cell_handle c, double cosine, double wanted) {
+    Sliver_3 s{c, c->generation(), cosine};
+    s.is_pinched = !s.is_flat() && is_pinched_at_shortest(c, wanted);
+    return s;
+  }
+
+  /// As only cocircular vertices make it, of which images next to small angles are many: no angle of the input is as small.
+  bool is_flat() const {
+    constexpr double flattest = 1 - 1.5e-12;  // the cosine of 1e-4 degrees
+    return cosine > flattest;
+  }
+
   bool is_live() const { return cell->generation() == generation; }
 
   /// \pre it is live
@@ -38,6 +50,19 @@ struct Sliver_3 {
   }
 
  private:
+  /// Whether the shortest edge is between features, and is seen from the opposite one under less than half of the wanted angle. Its ends are not moved,
+  /// others by 0.4 of an edge at most: as long as it is there, so is a small angle (docs/theory.md, section 12). Seconds of the removal, and slivers left,
+  /// of a part with 312,000, without, at 1/2.8, 1/2, 1/1.4: 25.9, 22.2, 18.8, 17.2; 108,366, 108,336, 108,031, 108,149.
+  static bool is_pinched_at_shortest(typename Tr::Cell_handle c, double wanted) {
+    constexpr double share = 0.5;
+    const Tetrahedron_points p = tetrahedron_points(c);
+    const auto [a, b] = shortest_edge(p);
+    if (c->vertex(static_cast<int>(a))->in_dimension() == 3 || c->vertex(static_cast<int>(b))->in_dimension() == 3) return false;
+    const std::size_t i = a != 0 && b != 0 ? 0 : a != 1 && b != 1 ? 1 : 2, j = 6 - a - b - i;
+    const double distance2 = std::max(squared_distance_to_line(p[a], p[i], p[j]), squared_distance_to_line(p[b], p[i], p[j]));
+    return squared_distance(p[a], p[b]) < share * share * (1 - wanted * wanted) * distance2;
+  }
+
   std::array<std::array<double, 3>, 4> key() const {
     std::array<std::array<double, 3>, 4> k;
     for (int i = 0; i < 4; ++i) {

@@ -49,7 +49,7 @@ class Sliver_remover_3 {
     }
     move_all();
     for (const Sliver& s : known_)
-      if (s.is_live()) (is_foreign(s) ? result_.foreign : result_.hopeless).push_back(s);
+      if (s.is_live()) (!s.is_pinched && is_foreign(s) ? result_.foreign : result_.hopeless).push_back(s);
     return std::move(result_);
   }
 
@@ -59,7 +59,7 @@ class Sliver_remover_3 {
     using Outcome = typename Vertex_mover_3<Tr, Criteria>::Outcome;
     for (; next_ < known_.size() && !is_cancelled(); ++next_) {
       prefetch_from(next_);
-      for (int i = 0; i < 4 && known_[next_].is_live(); ++i) {
+      for (int i = 0; i < 4 && is_to_be_removed(known_[next_]); ++i) {
         const Vertex_handle v = known_[next_].cell->vertex(i);
         if (v->in_dimension() != 3) continue;
         const auto at = tried_.find(&*v);
@@ -90,7 +90,7 @@ class Sliver_remover_3 {
   void insert_all() {
     for (; filled_ < known_.size() && result_.added < quota_ && !is_cancelled(); ++filled_) {
       const Sliver s = known_[filled_];
-      if (!s.is_live() || !inserter_.insert(s.cell, s.cosine, wanted_)) continue;
+      if (!is_to_be_removed(s) || !inserter_.insert(s.cell, s.cosine, wanted_)) continue;
       ++result_.added;
       for (const Cell_handle c : inserter_.star()) note(c);
     }
@@ -98,8 +98,10 @@ class Sliver_remover_3 {
 
   bool is_cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
 
+  static bool is_to_be_removed(const Sliver& s) { return s.is_live() && !s.is_pinched; }
+
   void note(Cell_handle c) {
-    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) known_.push_back(Sliver::of(c, cosine));
+    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) known_.push_back(Sliver::of(c, cosine, wanted_));
   }
 
   bool is_foreign(const Sliver& s) const {
