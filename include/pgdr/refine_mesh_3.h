@@ -76,7 +76,7 @@ class Mesher_3 {
     lap("triangulation");
     start_segment_recovery(mesh_.triangulation(), features_);
     while (features_.has_subsegments() && !should_stop()) features_.step();
-    start_facet_recovery(features_);
+    start_facet_recovery(mesh_.triangulation(), features_);
     features_.images().find_facets();
     while (!features_.is_idle() && !should_stop()) features_.step();
     features_.note_mended();

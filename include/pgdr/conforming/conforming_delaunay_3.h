@@ -3,6 +3,8 @@
 #define PGDR_CONFORMING_CONFORMING_DELAUNAY_3_H
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <pgdr/conforming/cocircular_polygon_3.h>
 #include <pgdr/conforming/feature_refiner_3.h>
@@ -47,7 +49,7 @@ void start_segment_recovery(Tr& tr, Feature_refiner_3<Tr>& refiner) {
 
 /// The same for subfacets, once every subsegment is there; cocircular polygons adopt what the triangulation shows.
 template <class Tr>
-void start_facet_recovery(Feature_refiner_3<Tr>& refiner) {
+void start_facet_recovery(const Tr& tr, Feature_refiner_3<Tr>& refiner) {
   auto& complex = refiner.complex();
   Vertex_star_3<Tr> star;
   const auto slots = [&] { return static_cast<std::uint32_t>(complex.subfacet_slots()); };
@@ -57,8 +59,13 @@ void start_facet_recovery(Feature_refiner_3<Tr>& refiner) {
   for (std::uint32_t t = 0; t < slots(); ++t)
     if (complex.subfacet(t).alive() && !complex.subfacet(t).present && !polygon.adopt(t))
       refiner.note_missing_subfacet(t);
-  for (std::uint32_t t = 0; t < slots(); ++t)
-    if (complex.subfacet(t).alive() && complex.subfacet(t).present) refiner.request_if_encroached(t);
+  // One walk through the cells tells where all are: where the mesh is not graded, vertices have large stars.
+  std::vector<std::pair<typename Tr::Cell_handle, int>> sides(slots());
+  for (const auto c : tr.all_cell_handles())
+    for (int i = 0; i < 4; ++i)
+      if (const std::uint32_t t = c->subfacet(i); t != complex.none) sides[t] = {c, i};
+  for (const auto& [c, i] : sides)
+    if (c != typename Tr::Cell_handle()) refiner.request_if_encroached(c, i);
 }
 
 }  // namespace pgdr

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -80,14 +81,14 @@ class Feature_refiner_3 {
     const Vec_3 m = split_points_.of_subfacet(t, Split_reason::encroached);
     request(false, Feature_request::encroached(complex_.subfacet_id(t), spacing_.guard(on, m, v)));
   }
-  /// Queues a present subfacet that one of its two opposite vertices encroaches.
-  void request_if_encroached(std::uint32_t slot) {
-    const auto& t = complex_.subfacet(slot);
-    const auto c = search_.star().find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
-    if (c == Cell_handle()) return;
-    const int m = index_of_fourth<Tr>(c, t.vertices);
-    for (const Vertex_handle v : {c->vertex(m), tr_.mirror_vertex(c, m)})
-      if (!tr_.is_infinite(v) && encroaches(complex_, t, v)) return note_encroached_subfacet(slot, v);
+  /// Queues the subfacet of c opposite to its i-th vertex if one of its two opposite vertices encroaches it. From both sides the same.
+  void request_if_encroached(Cell_handle c, int i) {
+    const std::uint32_t slot = c->subfacet(i);
+    const auto place = [](Vertex_handle v) { return std::tuple(v->point().x(), v->point().y(), v->point().z()); };
+    Vertex_handle by{};
+    for (const Vertex_handle v : {c->vertex(i), tr_.mirror_vertex(c, i)})
+      if (!tr_.is_infinite(v) && encroaches(complex_, complex_.subfacet(slot), v) && (by == Vertex_handle() || place(v) < place(by))) by = v;
+    if (by != Vertex_handle()) note_encroached_subfacet(slot, by);
   }
   void request(bool is_subsegment, const Feature_request& r) {
     queues_.push(is_subsegment, r);
@@ -392,8 +393,8 @@ class Feature_refiner_3 {
     complex_.flip(slot, n);
     for (const std::uint32_t t : {slot, n}) {
       complex_.subfacet(t).present = false;
-      if (mark_subfacet(complex_, search_.star(), t))
-        request_if_encroached(t);
+      if (const Cell_handle c = mark_subfacet(complex_, search_.star(), t); c != Cell_handle())
+        request_if_encroached(c, index_of_fourth<Tr>(c, complex_.subfacet(t).vertices));
       else
         note_missing_subfacet(t);
     }

@@ -48,15 +48,15 @@ bool mark_subsegment(const Tr& tr, Constraint_complex_3<Tr>& complex, Vertex_sta
   return true;
 }
 
-/// Marks a triangle; false if the triangulation lacks it.
+/// Marks a triangle; a cell that has it, or none if the triangulation lacks it.
 template <class Tr>
-bool mark_subfacet(Constraint_complex_3<Tr>& complex, Vertex_star_3<Tr>& star, std::uint32_t slot) {
+typename Tr::Cell_handle mark_subfacet(Constraint_complex_3<Tr>& complex, Vertex_star_3<Tr>& star, std::uint32_t slot) {
   auto& t = complex.subfacet(slot);
   const auto c = star.find_facet(t.vertices[0], t.vertices[1], t.vertices[2]);
-  if (c == typename Tr::Cell_handle()) return false;
+  if (c == typename Tr::Cell_handle()) return c;
   mark_facet<Tr>(c, index_of_fourth<Tr>(c, t.vertices), slot);
   t.present = true;
-  return true;
+  return c;
 }
 
 /// Marks a subsegment at the vertex just inserted, which is an edge exactly if the star shows it.
@@ -79,29 +79,32 @@ void mark_subfacets(Constraint_complex_3<Tr>& complex, typename Tr::Vertex_handl
                     const Cavity_3<Tr>& cavity) {
   // By the edge opposite to v; the order, which depends on addresses, only serves to find them.
   using Edge = std::array<const void*, 2>;
-  const auto edge_of = [](typename Tr::Vertex_handle a, typename Tr::Vertex_handle b) {
-    const void *p = &*a, *q = &*b;
-    return std::less<>()(p, q) ? Edge{p, q} : Edge{q, p};
-  };
+  const auto edge_of = [](const void* p, const void* q) { return std::less<>()(p, q) ? Edge{p, q} : Edge{q, p}; };
+  // One of 64, the same for the same vertex: what is no corner of a subfacet mostly has one that no corner has.
+  const auto bit_of = [](const void* p) { return std::uint64_t{1} << (reinterpret_cast<std::uintptr_t>(p) * 0x9e3779b97f4a7c15u >> 58); };
   std::vector<std::pair<Edge, std::uint32_t>> sought;
   sought.reserve(slots.size());
+  std::uint64_t corners = 0;
   for (const std::uint32_t slot : slots) {
     const auto& t = complex.subfacet(slot).vertices;
     const auto i = static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
-    sought.emplace_back(edge_of(t[(i + 1) % 3], t[(i + 2) % 3]), slot);
+    const void *p = &*t[(i + 1) % 3], *q = &*t[(i + 2) % 3];
+    sought.emplace_back(edge_of(p, q), slot);
+    corners |= bit_of(p) | bit_of(q);
   }
   std::sort(sought.begin(), sought.end());
   const auto& star = cavity.star();
   for (std::size_t k = 0; k < star.size(); ++k) {
     const int apex = cavity.apex(k);
-    for (int i = 0; i < 4; ++i) {
-      if (i == apex) continue;
-      const int a = Tr::vertex_triple_index(i, 0), b = Tr::vertex_triple_index(i, 1), c = Tr::vertex_triple_index(i, 2);
-      const int p = a == apex ? b : a, q = c == apex ? b : c;
-      const Edge edge = edge_of(star[k]->vertex(p), star[k]->vertex(q));
+    std::array<const void*, 3> ends;  // of the three edges opposite to v
+    for (int j = 1; j < 4; ++j) ends[static_cast<std::size_t>(j - 1)] = &*star[k]->vertex((apex + j) & 3);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const void *p = ends[(j + 1) % 3], *q = ends[(j + 2) % 3];
+      if (!(corners & bit_of(p)) || !(corners & bit_of(q))) continue;
+      const Edge edge = edge_of(p, q);
       const auto at = std::lower_bound(sought.begin(), sought.end(), std::make_pair(edge, std::uint32_t{0}));
       if (at == sought.end() || at->first != edge || complex.subfacet(at->second).present) continue;
-      mark_facet<Tr>(star[k], i, at->second);
+      mark_facet<Tr>(star[k], (apex + 1 + static_cast<int>(j)) & 3, at->second);
       complex.subfacet(at->second).present = true;
     }
   }

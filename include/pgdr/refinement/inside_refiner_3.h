@@ -135,7 +135,7 @@ class Inside_refiner_3 {
     for (const auto& m : s.sheets().moved()) {
       // What was asked for these subfacets before is void.
       for (int i = 0; i < 4; ++i)
-        if (m.cell->subfacet(i) != Complex::none) s.features().request_if_encroached(m.cell->subfacet(i));
+        if (m.cell->subfacet(i) != Complex::none) s.features().request_if_encroached(m.cell, i);
       // If another point is inserted after all, the cell may stay.
       s.features().fresh_cells().push_back({m.cell, m.cell->generation(), 0});
     }
