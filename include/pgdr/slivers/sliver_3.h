@@ -26,7 +26,7 @@ struct Sliver_3 {
 
   static Sliver_3 of(typename Tr::Cell_handle c, double cosine, double wanted) {
     Sliver_3 s{c, c->generation(), cosine};
-    s.is_pinched = !s.is_flat() && is_pinched_at_shortest(c, wanted);
+    s.is_pinched = !s.is_flat() && is_pinched_between_features(c, wanted);
     return s;
   }
 
@@ -50,17 +50,21 @@ struct Sliver_3 {
   }
 
  private:
-  /// Whether the shortest edge is between features, and is seen from the opposite one under less than half of the wanted angle. Its ends are not moved,
-  /// others by 0.4 of an edge at most: as long as it is there, so is a small angle (docs/theory.md, section 12). Seconds of the removal, and slivers left,
-  /// of a part with 312,000, without, at 1/2.8, 1/2, 1/1.4: 25.9, 22.2, 18.8, 17.2; 108,366, 108,336, 108,031, 108,149.
-  static bool is_pinched_at_shortest(typename Tr::Cell_handle c, double wanted) {
+  /// Whether an edge between features is seen from the opposite one under less than half of the wanted angle. Its ends are not moved, others by 0.4 of an
+  /// edge at most: as long as it is there, so is a small angle (docs/theory.md, section 12). Seconds of the removal, and slivers left, of a part with 312,000,
+  /// without, at 1/2.8, 1/2, 1/1.4: 25.9, 22.2, 18.8, 17.2; 108,366, 108,336, 108,031, 108,149.
+  static bool is_pinched_between_features(typename Tr::Cell_handle c, double wanted) {
     constexpr double share = 0.5;
     const Tetrahedron_points p = tetrahedron_points(c);
-    const auto [a, b] = shortest_edge(p);
-    if (c->vertex(static_cast<int>(a))->in_dimension() == 3 || c->vertex(static_cast<int>(b))->in_dimension() == 3) return false;
-    const std::size_t i = a != 0 && b != 0 ? 0 : a != 1 && b != 1 ? 1 : 2, j = 6 - a - b - i;
-    const double distance2 = std::max(squared_distance_to_line(p[a], p[i], p[j]), squared_distance_to_line(p[b], p[i], p[j]));
-    return squared_distance(p[a], p[b]) < share * share * (1 - wanted * wanted) * distance2;
+    for (int a = 0; a < 3; ++a)
+      for (int b = a + 1; b < 4; ++b) {
+        if (c->vertex(a)->in_dimension() == 3 || c->vertex(b)->in_dimension() == 3) continue;
+        const int i = a != 0 ? 0 : b != 1 ? 1 : 2, j = 6 - a - b - i;
+        const auto at = [&p](int k) { return p[static_cast<std::size_t>(k)]; };
+        const auto squared_distance_of = [&](int k) { return squared_distance_to_line(at(k), at(i), at(j)); };
+        if (squared_distance(at(a), at(b)) < share * share * (1 - wanted * wanted) * std::max(squared_distance_of(a), squared_distance_of(b))) return true;
+      }
+    return false;
   }
 
   std::array<std::array<double, 3>, 4> key() const {
