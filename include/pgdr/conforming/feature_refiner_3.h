@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -84,10 +83,9 @@ class Feature_refiner_3 {
   /// Queues the subfacet of c opposite to its i-th vertex if one of its two opposite vertices encroaches it. From both sides the same.
   void request_if_encroached(Cell_handle c, int i) {
     const std::uint32_t slot = c->subfacet(i);
-    const auto place = [](Vertex_handle v) { return std::tuple(v->point().x(), v->point().y(), v->point().z()); };
     Vertex_handle by{};
     for (const Vertex_handle v : {c->vertex(i), tr_.mirror_vertex(c, i)})
-      if (!tr_.is_infinite(v) && encroaches(complex_, complex_.subfacet(slot), v) && (by == Vertex_handle() || place(v) < place(by))) by = v;
+      if (!tr_.is_infinite(v) && encroaches(complex_, complex_.subfacet(slot), v) && (by == Vertex_handle() || v->point() < by->point())) by = v;
     if (by != Vertex_handle()) note_encroached_subfacet(slot, by);
   }
   void request(bool is_subsegment, const Feature_request& r) {

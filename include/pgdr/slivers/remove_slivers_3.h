@@ -115,8 +115,7 @@ class Sliver_removal_3 {
   }
 
   void add_if_sliver(Cell_handle c, std::vector<Sliver>& to) const {
-    if (c->subdomain() == 0 || tr_.is_infinite(c)) return;
-    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) to.push_back(Sliver::of(c, cosine, wanted_));
+    if (c->subdomain() != 0 && !tr_.is_infinite(c)) Sliver::add_if_below(c, wanted_, to);
   }
 
   void give_up_pinched(std::vector<Sliver>& slivers) {

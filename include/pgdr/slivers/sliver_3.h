@@ -24,10 +24,12 @@ struct Sliver_3 {
   double cosine = 1;  ///< of its smallest dihedral angle
   bool is_pinched = false;
 
-  static Sliver_3 of(typename Tr::Cell_handle c, double cosine, double wanted) {
-    Sliver_3 s{c, c->generation(), cosine};
+  /// Appends the tetrahedron if its smallest dihedral angle is below the one with the cosine `wanted`.
+  static void add_if_below(typename Tr::Cell_handle c, double wanted, std::vector<Sliver_3>& to) {
+    Sliver_3 s{c, c->generation(), largest_dihedral_cosine(tetrahedron_points(c))};
+    if (!(s.cosine > wanted)) return;
     s.is_pinched = !s.is_flat() && is_pinched_between_features(c, wanted);
-    return s;
+    to.push_back(s);
   }
 
   /// As only cocircular vertices make it, of which images next to small angles are many: no angle of the input is as small.

@@ -100,9 +100,7 @@ class Sliver_remover_3 {
 
   static bool is_to_be_removed(const Sliver& s) { return s.is_live() && !s.is_pinched; }
 
-  void note(Cell_handle c) {
-    if (const double cosine = largest_dihedral_cosine(tetrahedron_points(c)); cosine > wanted_) known_.push_back(Sliver::of(c, cosine, wanted_));
-  }
+  void note(Cell_handle c) { Sliver::add_if_below(c, wanted_, known_); }
 
   bool is_foreign(const Sliver& s) const {
     for (int i = 0; i < 4; ++i)
