@@ -135,12 +135,10 @@ class Mesher_3 {
 
   void refine(const Criteria& criteria) {
     Engine engine(mesh_.triangulation(), mesh_.complex(), acute_, criteria, min_edge_length_, placement_);
-    with_threads(parameters_.threads, [&] {
-      Epoch_scheduler<Engine> scheduler(engine, parameters_, mesh_.triangulation().number_of_vertices());
-      if (!scheduler.run()) reason_ = watch_.reached() == Limit_watch::Limit::none ? Stop_reason::vertex_budget : reason_of(watch_.reached());
-      if (scheduler.limited() > 0) limited_ = count_limited();
-      mesh_.statistics().schedule = std::move(scheduler.statistics());
-    });
+    Epoch_scheduler<Engine> scheduler(engine, parameters_, mesh_.triangulation().number_of_vertices());
+    if (!scheduler.run()) reason_ = watch_.reached() == Limit_watch::Limit::none ? Stop_reason::vertex_budget : reason_of(watch_.reached());
+    if (scheduler.limited() > 0) limited_ = count_limited();
+    mesh_.statistics().schedule = std::move(scheduler.statistics());
   }
 
   void remove_slivers(const Criteria& criteria) {
@@ -148,12 +146,10 @@ class Mesher_3 {
     const auto notify = [this](std::size_t slivers) {
       if (parameters_.progress) parameters_.progress({"removing slivers", mesh_.triangulation().number_of_vertices(), slivers});
     };
-    with_threads(parameters_.threads, [&] {
-      mesh_.statistics().slivers =
-          Sliver_removal_3<Tr, Criteria, Engine>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_,
-                                                 cosine_of_degrees(parameters_.min_dihedral), engine, parameters_.vertex_limit(), parameters_.cancel)
-              .run(notify);
-    });
+    mesh_.statistics().slivers =
+        Sliver_removal_3<Tr, Criteria, Engine>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_,
+                                               cosine_of_degrees(parameters_.min_dihedral), engine, parameters_.vertex_limit(), parameters_.cancel)
+            .run(notify);
     const std::size_t left = mesh_.statistics().slivers.left;
     if (left > 0 && parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed))
       reason_ = reason_of(watch_.reached());
@@ -167,11 +163,9 @@ class Mesher_3 {
       if (parameters_.progress) parameters_.progress({"optimization", mesh_.triangulation().number_of_vertices(), vertices});
     };
     const double wanted = parameters_.min_dihedral > 0 ? cosine_of_degrees(parameters_.min_dihedral) : -1;
-    with_threads(parameters_.threads, [&] {
-      mesh_.statistics().optimization =
-          Mesh_optimizer_3<Tr, Criteria>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_, wanted, parameters_.cancel)
-              .run(parameters_.optimization_rounds, notify);
-    });
+    mesh_.statistics().optimization =
+        Mesh_optimizer_3<Tr, Criteria>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_, wanted, parameters_.cancel)
+            .run(parameters_.optimization_rounds, notify);
     if (parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed)) reason_ = reason_of(watch_.reached());
     if (mesh_.statistics().slivers.left > 0) mesh_.statistics().slivers.left = count_slivers(wanted);
     if (limited_ > 0) limited_ = count_limited();
@@ -222,11 +216,9 @@ class Mesher_3 {
 
   /// A stop leaves cells that nobody has looked at.
   void note_unrefined(const Criteria& criteria) {
-    with_threads(parameters_.threads, [&] {
-      for_meshed_cells([&criteria](auto c) {
-        if (c->state() == Cell_state::good && criteria.is_poor(tetrahedron_ball(tetrahedron_points(c)), c->subdomain()))
-          c->set_state(Cell_state::poor);
-      });
+    for_meshed_cells([&criteria](auto c) {
+      if (c->state() == Cell_state::good && criteria.is_poor(tetrahedron_ball(tetrahedron_points(c)), c->subdomain()))
+        c->set_state(Cell_state::poor);
     });
   }
 
@@ -318,7 +310,7 @@ Refined_mesh_3<K> refine_mesh_3(Domain_3<K> domain, const Sizing& sizing, const 
     throw std::invalid_argument("the smallest dihedral angle must be from 0 to " + significant(Parameters::largest_min_dihedral, 2) + " degrees");
   if (parameters.octree_depth < 0 || parameters.octree_depth > Parameters::largest_octree_depth)
     throw std::invalid_argument("the depth of the octree must be from 0 to " + std::to_string(Parameters::largest_octree_depth));
-  return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), sizing, parameters, std::move(placement)).run();
+  return with_threads(parameters.threads, [&] { return internal::Mesher_3<K, Sizing, Placement>(std::move(domain), sizing, parameters, std::move(placement)).run(); });
 }
 
 /// The same with Steiner points where `parameters.placement` says. With the default kernel the engine is the library's, which calls a field of the user's

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Object.h>
 #include <CGAL/centroid.h>
 #include <CGAL/intersections.h>
+
+#include <pgdr/domain/detail/box_pairs.h>
 
 namespace pgdr::domain_detail {
 
@@ -39,16 +42,15 @@ bool triangles_meet(std::array<Index, 3> a, std::array<Index, 3> b, const std::v
 }
 
 Intersection_finder::Intersection_finder(const Triangle_soup& soup) : soup_(soup) {
+  triangle_boxes_.reserve(soup.triangles.size());
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     triangle_boxes_.push_back({soup.triangle(t).bbox(), t});
 }
 
 std::vector<Id_pair> Intersection_finder::triangles() const {
-  std::vector<Id_pair> result;
-  std::vector<Box> boxes = triangle_boxes_;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+  std::vector<Id_pair> result = Box_slabs(triangle_boxes_).pairs<Id_pair>([&](const Box& a, const Box& b, std::vector<Id_pair>& list) {
     const std::size_t s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
-    if (soup_.facet[s] != soup_.facet[t] && triangles_meet(soup_.triangles[s], soup_.triangles[t], soup_.points)) result.push_back({s, t});
+    if (soup_.facet[s] != soup_.facet[t] && triangles_meet(soup_.triangles[s], soup_.triangles[t], soup_.points)) list.push_back({s, t});
   });
   std::sort(result.begin(), result.end());
   return result;

@@ -15,9 +15,9 @@
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Search_traits_adapter.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/property_map.h>
 
+#include <pgdr/domain/detail/box_pairs.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/vec_3.h>
@@ -124,6 +124,7 @@ class Protected_balls_3 {
   /// Makes balls smaller where a feature is close that does not contain their centers.
   template <class K>
   void keep_clear(const Domain_3<K>& domain) {
+    using domain_detail::Box_slabs;
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
     std::vector<Box> balls, simplices;
     std::vector<std::pair<Index, std::array<Index, 3>>> triangles;  // facet, or `none`, and corners, some of them the same
@@ -142,7 +143,7 @@ class Protected_balls_3 {
       const double r = 2 * radius_[v];
       balls.emplace_back(CGAL::Bbox_3(p.x - r, p.y - r, p.z - r, p.x + r, p.y + r, p.z + r), v);
     }
-    CGAL::box_intersection_d(balls.begin(), balls.end(), simplices.begin(), simplices.end(), [&](const Box& b, const Box& s) {
+    Box_slabs(std::move(balls)).for_each_with(Box_slabs(std::move(simplices)), [&](const Box& b, const Box& s) {
       const auto v = static_cast<Index>(b.info());
       const auto& [facet, t] = triangles[s.info()];
       if (t[0] == v || t[1] == v || t[2] == v) return;

@@ -19,6 +19,8 @@
 #include <pgdr/domain/input_error.h>
 #include <pgdr/domain/plc.h>
 #include <pgdr/domain/scale.h>
+#include <pgdr/parallel/parallel_for.h>
+#include <pgdr/parallel/parallel_sort.h>
 
 namespace pgdr {
 
@@ -90,8 +92,7 @@ inline std::vector<Index> first_equal_vertex(const std::vector<Vec_3>& points,
   std::vector<Index> order;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!skipped[i]) order.push_back(static_cast<Index>(i));
-  std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return key(a) < key(b) || (key(a) == key(b) && a < b); });
+  parallel_sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b) || (key(a) == key(b) && a < b); });
   std::vector<Index> first(points.size());
   std::iota(first.begin(), first.end(), Index{0});
   for (std::size_t i = 1; i < order.size(); ++i)
@@ -125,31 +126,15 @@ Facet_polygons merged_polygons(const Plc_facet<K>& facet, const std::vector<Inde
   return result;
 }
 
-/// Finds the explicit segments between vertices of one facet.
-class Segment_lookup {
- public:
-  Segment_lookup(std::vector<Explicit_segment> segments, std::size_t vertices)
-      : segments_(std::move(segments)), seen_(vertices, 0) {}
-
-  std::vector<Explicit_segment> among(const std::vector<Index>& used) {
-    std::vector<Explicit_segment> result;
-    if (segments_.empty()) return result;
-    ++stamp_;
-    for (Index v : used) seen_[v] = stamp_;
-    for (Index v : used) {
-      const Explicit_segment key{{v, 0}, 0};
-      for (auto s = std::lower_bound(segments_.begin(), segments_.end(), key);
-           s != segments_.end() && s->ends[0] == v; ++s)
-        if (seen_[s->ends[1]] == stamp_) result.push_back(*s);
-    }
-    return result;
-  }
-
- private:
-  std::vector<Explicit_segment> segments_;  // sorted
-  std::vector<Index> seen_;
-  Index stamp_ = 0;
-};
+/// The explicit segments (sorted) between vertices (ascending) of one facet.
+inline std::vector<Explicit_segment> segments_among(const std::vector<Index>& used, const std::vector<Explicit_segment>& segments) {
+  std::vector<Explicit_segment> result;
+  if (segments.empty()) return result;
+  for (const Index v : used)
+    for (auto s = std::lower_bound(segments.begin(), segments.end(), Explicit_segment{{v, 0}, 0}); s != segments.end() && s->ends[0] == v; ++s)
+      if (std::ranges::binary_search(used, s->ends[1])) result.push_back(*s);
+  return result;
+}
 
 }  // namespace domain_detail
 
@@ -234,19 +219,21 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
       if (p.size() == 2 && p[0] < merged.size() && p[1] < merged.size() && merged[p[0]] != merged[p[1]])
         segments.push_back({sorted_pair(merged[p[0]], merged[p[1]]), 0});
   std::sort(segments.begin(), segments.end());
-  Segment_lookup lookup(segments, points.size());
+  std::vector<Facet_reader> readers(chunk_count(plc.facets.size(), default_grain), Facet_reader(points, domain.tolerance, triangulate, plc.first_index));
+  parallel_for_chunks(plc.facets.size(), default_grain, [&](std::size_t begin, std::size_t end) {
+    Facet_reader& chunk = readers[begin / default_grain];
+    chunk.pieces.reserve(end - begin);
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto& facet = plc.facets[f];
+      if (std::ranges::any_of(facet.polygons, [&](const auto& polygon) { return std::ranges::any_of(polygon, [&](Index v) { return v >= merged.size() || unusable[v]; }); })) continue;
+      const Facet_polygons polygons = merged_polygons(facet, merged);
+      const bool is_triangle = polygons.used.size() <= 3;
+      chunk.read(static_cast<Index>(f), facet.marker, polygons, is_triangle ? std::vector<Explicit_segment>{} : segments_among(polygons.used, segments));
+    }
+  });
   Facet_reader reader(points, domain.tolerance, triangulate, plc.first_index);
   reader.pieces.reserve(plc.facets.size());
-  for (std::size_t f = 0; f < plc.facets.size(); ++f) {
-    bool usable = true;
-    for (const auto& polygon : plc.facets[f].polygons)
-      for (Index v : polygon) usable = usable && v < merged.size() && !unusable[v];
-    if (!usable) continue;
-    const Facet_polygons polygons = merged_polygons(plc.facets[f], merged);
-    const bool triangle = polygons.used.size() <= 3;
-    reader.read(static_cast<Index>(f), plc.facets[f].marker, polygons,
-                triangle ? std::vector<Explicit_segment>{} : lookup.among(polygons.used));
-  }
+  for (Facet_reader& chunk : readers) reader.append(std::move(chunk));
   problems.insert(problems.end(), reader.problems.begin(), reader.problems.end());
   if (!problems.empty()) throw Input_error(std::move(problems));
   for (Facet_piece& piece : reader.pieces) piece.group = plc.facets[piece.input_facet].group;
@@ -260,13 +247,14 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
       std::unique(segments.begin(), segments.end(),
                   [](const Explicit_segment& a, const Explicit_segment& b) { return a.ends == b.ends; }),
       segments.end());
-  const std::vector<Facet_group> groups =
+  std::vector<Facet_group> groups =
       Facet_fuser(points, reader.pieces, segments, domain.tolerance).fuse();
 
   std::vector<Index_pair> all;
   for (const Explicit_segment& s : segments) all.push_back(s.ends);
   for (const Facet_group& g : groups) all.insert(all.end(), g.segments.begin(), g.segments.end());
-  sort_unique(all);
+  parallel_sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   domain.segments.resize(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) domain.segments[i].vertices = all[i];
   const auto segment_index = [&](const Index_pair& ends) {
@@ -274,23 +262,24 @@ Domain_3<K> make_domain_3(const Piecewise_linear_complex_3<K>& plc, double relat
   };
   for (const Explicit_segment& s : segments) domain.segments[segment_index(s.ends)].marker = s.marker;
 
-  domain.facets.reserve(groups.size());
-  for (const Facet_group& g : groups) {
-    typename Domain_3<K>::Facet facet;
-    facet.marker = reader.pieces[g.pieces[0]].marker;
-    facet.origin = to_array(g.plane.origin);
-    facet.normal = to_array(g.plane.normal);
-    for (Index p : g.pieces) facet.input_facets.push_back(reader.pieces[p].input_facet);
-    sort_unique(facet.input_facets);
-    facet.triangles = g.triangles;
-    for (const auto& t : facet.triangles) facet.vertices.insert(facet.vertices.end(), t.begin(), t.end());
-    sort_unique(facet.vertices);
-    for (const Index_pair& ends : g.segments) {
-      facet.segments.push_back(segment_index(ends));
-      domain.segments[facet.segments.back()].facets.push_back(static_cast<Index>(domain.facets.size()));
+  domain.facets.resize(groups.size());
+  parallel_for_chunks(groups.size(), default_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Facet_group& g = groups[i];
+      auto& facet = domain.facets[i];
+      facet.marker = reader.pieces[g.pieces[0]].marker;
+      facet.origin = to_array(g.plane.origin);
+      facet.normal = to_array(g.plane.normal);
+      for (const Index p : g.pieces) facet.input_facets.push_back(reader.pieces[p].input_facet);
+      sort_unique(facet.input_facets);
+      facet.triangles = std::move(g.triangles);
+      for (const auto& t : facet.triangles) facet.vertices.insert(facet.vertices.end(), t.begin(), t.end());
+      sort_unique(facet.vertices);
+      for (const Index_pair& ends : g.segments) facet.segments.push_back(segment_index(ends));
     }
-    domain.facets.push_back(std::move(facet));
-  }
+  });
+  for (Index f = 0; f < domain.facets.size(); ++f)
+    for (const Index s : domain.facets[f].segments) domain.segments[s].facets.push_back(f);
   return domain;
 }
 

@@ -14,6 +14,7 @@
 #include <pgdr/domain/detail/vertex_angle.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/reproducible_functions.h>
+#include <pgdr/parallel/parallel_for.h>
 
 namespace pgdr {
 
@@ -51,24 +52,25 @@ template <class K>
 std::vector<double> dihedral_angles_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges) {
   using namespace domain_detail;
   std::vector<double> result(domain.segments.size(), 180);
-  // The directions in which sheets leave, as angles around the segment.
-  std::vector<double> around;
-  for (std::size_t s = 0; s < domain.segments.size(); ++s) {
-    around.clear();
-    const auto [a, b] = domain.segments[s].vertices;
-    const Vec_3 axis = normalized(to_vec(domain.vertices[b]) - to_vec(domain.vertices[a]));
-    Vec_3 u, v;
-    for (const Sheet& sheet : edges.sheets(s)) {
-      const Vec_3 leaving = inward(domain, sheet, axis);
-      if (around.empty()) {
-        u = normalized(leaving - dot(leaving, axis) * axis);
-        v = cross(axis, u);
+  parallel_for_chunks(domain.segments.size(), default_grain, [&](std::size_t first, std::size_t last) {
+    std::vector<double> around;  // the directions in which sheets leave, as angles around the segment
+    for (std::size_t s = first; s < last; ++s) {
+      around.clear();
+      const auto [a, b] = domain.segments[s].vertices;
+      const Vec_3 axis = normalized(to_vec(domain.vertices[b]) - to_vec(domain.vertices[a]));
+      Vec_3 u, v;
+      for (const Sheet& sheet : edges.sheets(s)) {
+        const Vec_3 leaving = inward(domain, sheet, axis);
+        if (around.empty()) {
+          u = normalized(leaving - dot(leaving, axis) * axis);
+          v = cross(axis, u);
+        }
+        const double angle = to_degrees(arc_tangent(dot(leaving, v), dot(leaving, u)));
+        around.push_back(angle < 0 ? angle + 360 : angle);
       }
-      const double angle = to_degrees(arc_tangent(dot(leaving, v), dot(leaving, u)));
-      around.push_back(angle < 0 ? angle + 360 : angle);
+      result[s] = smallest_gap_deg(around);
     }
-    result[s] = smallest_gap_deg(around);
-  }
+  });
   return result;
 }
 
@@ -94,20 +96,22 @@ Small_angles small_angles_3(const Domain_3<K>& domain) {
 
   // Vertices: segments against segments, and against the facet triangles around the vertex.
   const Vertex_features features(domain);
-  Vertex_angle angle;
-  for (Index w = 0; w < points.size(); ++w) {
-    angle.clear();
-    for (const Index i : features.segments(w)) {
-      const auto& s = domain.segments[i];
-      angle.add_segment(points[s.vertices[0] == w ? s.vertices[1] : s.vertices[0]] - points[w], s.facets);
+  parallel_for_chunks(points.size(), default_grain, [&](std::size_t first, std::size_t last) {
+    Vertex_angle angle;
+    for (std::size_t w = first; w < last; ++w) {
+      angle.clear();
+      for (const Index i : features.segments(w)) {
+        const auto& s = domain.segments[i];
+        angle.add_segment(points[s.vertices[0] == w ? s.vertices[1] : s.vertices[0]] - points[w], s.facets);
+      }
+      for (const auto& [facet, triangle] : features.triangles(w)) {
+        const auto& t = domain.facets[facet].triangles[triangle];
+        const std::size_t k = t[0] == w ? 0 : t[1] == w ? 1 : 2;
+        angle.add_triangle(facet, points[t[(k + 1) % 3]] - points[w], points[t[(k + 2) % 3]] - points[w]);
+      }
+      result.vertex_deg[w] = angle.smallest();
     }
-    for (const auto& [facet, triangle] : features.triangles(w)) {
-      const auto& t = domain.facets[facet].triangles[triangle];
-      const std::size_t k = t[0] == w ? 0 : t[1] == w ? 1 : 2;
-      angle.add_triangle(facet, points[t[(k + 1) % 3]] - points[w], points[t[(k + 2) % 3]] - points[w]);
-    }
-    result.vertex_deg[w] = angle.smallest();
-  }
+  });
   return result;
 }
 

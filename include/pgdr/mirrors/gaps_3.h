@@ -14,9 +14,9 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/box_intersection_d.h>
 
 #include <pgdr/domain/detail/aabb_trees.h>
+#include <pgdr/domain/detail/box_pairs.h>
 #include <pgdr/domain/detail/have_common.h>
 #include <pgdr/domain/detail/vector_3.h>
 #include <pgdr/domain/domain_3.h>
@@ -127,19 +127,19 @@ class Gaps_3 {
   static double diagonal(const Region_3& box) { return length(box.upper - box.lower); }
   static double cosine_of_limit() { return cosine_of_degrees(limit); }
 
-  /// Pairs of boxes, each grown by `widest / 2` of its diagonal, that overlap, and for which `accept(i, j)`; in the order of their numbers.
+  /// For `overlapping`: the box, grown by `widest / 2` of its diagonal.
+  static Box grown(const Region_3& box, Index number) {
+    const double d = widest / 2 * diagonal(box);
+    const Vec_3 lower = box.lower - Vec_3{d, d, d}, upper = box.upper + Vec_3{d, d, d};
+    return {CGAL::Bbox_3(lower.x, lower.y, lower.z, upper.x, upper.y, upper.z), number};
+  }
+
+  /// Pairs of boxes that overlap, and for which `accept(i, j)`; in the order of their numbers.
   template <class Accept>
-  static std::vector<Pair> overlapping(const std::vector<Region_3>& boxes, const Accept& accept) {
-    std::vector<Box> grown;
-    for (Index i = 0; i < boxes.size(); ++i) {
-      const double d = widest / 2 * diagonal(boxes[i]);
-      const Vec_3 lower = boxes[i].lower - Vec_3{d, d, d}, upper = boxes[i].upper + Vec_3{d, d, d};
-      grown.emplace_back(CGAL::Bbox_3(lower.x, lower.y, lower.z, upper.x, upper.y, upper.z), i);
-    }
-    std::vector<Pair> pairs;
-    CGAL::box_self_intersection_d(grown.begin(), grown.end(), [&](const Box& a, const Box& b) {
+  static std::vector<Pair> overlapping(std::vector<Box> boxes, const Accept& accept) {
+    std::vector<Pair> pairs = domain_detail::Box_slabs(std::move(boxes)).template pairs<Pair>([&](const Box& a, const Box& b, std::vector<Pair>& list) {
       const Pair p{std::max(a.info(), b.info()), std::min(a.info(), b.info())};
-      if (accept(p.first, p.second)) pairs.push_back(p);
+      if (accept(p.first, p.second)) list.push_back(p);
     });
     std::sort(pairs.begin(), pairs.end());
     return pairs;
@@ -156,7 +156,9 @@ class Gaps_3 {
   template <class K>
   static std::vector<Pair> near_each_other(const Domain_3<K>& domain, const std::vector<Region_3>& boxes) {
     const double cosine = cosine_of_limit();
-    return overlapping(boxes, [&](Index i, Index j) {
+    std::vector<Box> all;
+    for (Index f = 0; f < boxes.size(); ++f) all.push_back(grown(boxes[f], f));
+    return overlapping(std::move(all), [&](Index i, Index j) {
       const auto &f = domain.facets[i], &g = domain.facets[j];
       return std::abs(dot(to_vec(f.normal), to_vec(g.normal))) >= cosine && are_near(boxes[i], boxes[j]) &&
              !domain_detail::have_common(f.vertices, g.vertices) && may_face(domain, i, j);
@@ -231,14 +233,16 @@ class Gaps_3 {
   /// Nearly parallel segments next to each other along some of their length, of facets that face each other.
   template <class K>
   void pair_segments(const Domain_3<K>& domain) {
-    std::vector<Region_3> boxes;
-    for (const auto& s : domain.segments) {
-      const Vec_3 a = to_vec(domain.vertices[s.vertices[0]]), b = to_vec(domain.vertices[s.vertices[1]]);
-      Region_3& box = boxes.emplace_back();
+    std::vector<Box> boxes;
+    for (Index s = 0; s < domain.segments.size(); ++s) {
+      const auto& segment = domain.segments[s];
+      if (std::ranges::all_of(segment.facets, [&](Index f) { return of_facet_[f].empty(); })) continue;
+      const Vec_3 a = to_vec(domain.vertices[segment.vertices[0]]), b = to_vec(domain.vertices[segment.vertices[1]]);
+      Region_3 box;
       for (int k = 0; k < 3; ++k) std::tie(box.lower[k], box.upper[k]) = std::minmax({a[k], b[k]});
+      boxes.push_back(grown(box, s));
     }
-    const auto has_gaps = [&](Index s) { return std::ranges::any_of(domain.segments[s].facets, [&](Index f) { return !of_facet_[f].empty(); }); };
-    for (const auto& [s, t] : overlapping(boxes, [&](Index i, Index j) { return has_gaps(i) && has_gaps(j); })) {
+    for (const auto& [s, t] : overlapping(std::move(boxes), [](Index, Index) { return true; })) {
       bool face_each_other = false, is_empty = false;
       for (const Index f : domain.segments[s].facets)
         for (const Reflection& r : of_facet_[f])

@@ -6,10 +6,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <iterator>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 #include <pgdr/domain/detail/facet_plane.h>
 #include <pgdr/domain/detail/planar_triangulation.h>
@@ -31,8 +35,8 @@ struct Facet_piece {
   Index group = 0;
   Facet_plane plane;
   double area = 0;
-  std::vector<std::array<Index, 3>> triangles;  ///< counterclockwise about `plane.normal`
-  std::vector<Piece_edge> edges;                ///< ascending
+  boost::container::small_vector<std::array<Index, 3>, 1> triangles;  ///< counterclockwise about `plane.normal`
+  boost::container::small_vector<Piece_edge, 3> edges;                ///< ascending
 };
 
 struct Explicit_segment {
@@ -55,7 +59,7 @@ struct Facet_polygons {
 };
 
 inline double triangle_area(const std::vector<Vec_3>& points, const std::array<Index, 3>& t) {
-  return length(twice_area_vector(points, {t[0], t[1], t[2]})) / 2;
+  return length(twice_area_vector(points, t)) / 2;
 }
 
 /// Turns input facets into pieces, and gathers what is wrong with them.
@@ -83,6 +87,14 @@ class Facet_reader {
     }
   }
 
+  /// Adds what another reader has read after this one.
+  void append(Facet_reader&& later) {
+    std::ranges::move(later.pieces, std::back_inserter(pieces));
+    std::ranges::move(later.problems, std::back_inserter(problems));
+    segments.insert(segments.end(), later.segments.begin(), later.segments.end());
+    replaced.insert(replaced.end(), later.replaced.begin(), later.replaced.end());
+  }
+
  private:
   void report(Input_problem::Kind kind, const std::string& what) {
     problems.push_back({kind, "facet " + std::to_string(facet_ + first_index_) + " " + what, {facet_}, {}});
@@ -91,12 +103,12 @@ class Facet_reader {
   Work_point work_point(Index v) const { return to_work_point(points_[v]); }
 
   void read_triangle(const std::array<Index, 3>& t) {
-    const Vec_3 direction = twice_area_vector(points_, {t[0], t[1], t[2]});
+    const Vec_3 direction = twice_area_vector(points_, t);
     if (CGAL::collinear(work_point(t[0]), work_point(t[1]), work_point(t[2])) || length(direction) == 0) {
       report(Input_problem::Kind::degenerate_facet, "has no area");
       return;
     }
-    add_piece({t}, direction, {});
+    add_triangle(t, direction);
   }
 
   void read_polygons(const Facet_polygons& in, const std::vector<Explicit_segment>& extra) {
@@ -168,8 +180,8 @@ class Facet_reader {
       add_piece(triangles, plane, kept);
     } else {
       for (const std::array<Index, 3>& t : triangles) {
-        const Vec_3 d = twice_area_vector(points_, {t[0], t[1], t[2]});
-        if (length(d) > 0) add_piece({t}, d, {});
+        const Vec_3 d = twice_area_vector(points_, t);
+        if (length(d) > 0) add_triangle(t, d);
       }
     }
   }
@@ -183,18 +195,18 @@ class Facet_reader {
     for (const Index_pair& s : in.segments) segments.push_back({s, marker_});
   }
 
-  void add_piece(const std::vector<std::array<Index, 3>>& triangles, const Vec_3& direction,
-                 const std::vector<Index_pair>& kept) {
-    std::vector<Index> used;
-    for (const auto& t : triangles) used.insert(used.end(), t.begin(), t.end());
+  void add_triangle(const std::array<Index, 3>& t, const Vec_3& direction) {
     double thickness = 0;
-    add_piece(triangles, plane_through(points_, used, direction, thickness), kept);
+    add_piece(std::span(&t, 1), plane_through(points_, t, direction, thickness), {});
   }
 
   /// \param kept edges to keep although the piece may lie on both sides, sorted.
-  void add_piece(const std::vector<std::array<Index, 3>>& triangles, const Facet_plane& plane,
-                 const std::vector<Index_pair>& kept) {
-    Facet_piece piece{facet_, marker_, 0, plane, 0, triangles, {}};
+  void add_piece(std::span<const std::array<Index, 3>> triangles, const Facet_plane& plane, const std::vector<Index_pair>& kept) {
+    Facet_piece& piece = pieces.emplace_back();
+    piece.input_facet = facet_;
+    piece.marker = marker_;
+    piece.plane = plane;
+    piece.triangles.assign(triangles.begin(), triangles.end());
     for (const auto& t : triangles) {
       piece.area += triangle_area(points_, t);
       for (std::size_t i = 0; i < 3; ++i)
@@ -213,7 +225,6 @@ class Facet_reader {
       if (twice) ++i;
     }
     piece.edges.resize(n);
-    pieces.push_back(std::move(piece));
   }
 
   static std::string short_number(double x) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <CGAL/Exact_rational.h>
@@ -23,7 +24,7 @@ struct Facet_plane {
 };
 
 /// Twice the area of a closed polygon times its normal (Newell's formula), relative to its first vertex.
-inline Vec_3 twice_area_vector(const std::vector<Vec_3>& points, const std::vector<Index>& loop) {
+inline Vec_3 twice_area_vector(const std::vector<Vec_3>& points, std::span<const Index> loop) {
   Vec_3 total;
   double scale = 0;
   const Vec_3& p0 = points[loop[0]];
@@ -52,7 +53,7 @@ inline Vec_3 twice_area_vector(const std::vector<Vec_3>& points, const std::vect
 }
 
 /// A direction normal to points that belong to no closed polygon; zero when they are collinear.
-inline Vec_3 spread_normal(const std::vector<Vec_3>& points, const std::vector<Index>& used) {
+inline Vec_3 spread_normal(const std::vector<Vec_3>& points, std::span<const Index> used) {
   const Vec_3& p0 = points[used.front()];
   Vec_3 far, best;
   for (Index i : used)
@@ -67,7 +68,7 @@ inline Vec_3 spread_normal(const std::vector<Vec_3>& points, const std::vector<I
 /// Where all points share a coordinate exactly, the normal is exactly that axis.
 /// \param thickness receives half the distance of the extreme points along the normal.
 /// \pre `direction` is not zero.
-inline Facet_plane plane_through(const std::vector<Vec_3>& points, const std::vector<Index>& used,
+inline Facet_plane plane_through(const std::vector<Vec_3>& points, std::span<const Index> used,
                                  Vec_3 direction, double& thickness) {
   const Vec_3& p0 = points[used.front()];
   for (int k = 0; k < 3; ++k) {

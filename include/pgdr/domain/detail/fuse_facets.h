@@ -7,11 +7,14 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <pgdr/domain/detail/facet_pieces.h>
+#include <pgdr/parallel/parallel_for.h>
+#include <pgdr/parallel/parallel_sort.h>
 
 namespace pgdr::domain_detail {
 
@@ -39,35 +42,38 @@ class Facet_fuser {
 
   /// The groups, ordered by their first piece.
   std::vector<Facet_group> fuse() {
-    std::vector<Index> order(pieces_.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Index a, Index b) { return pieces_[a].area > pieces_[b].area; });
     group_of_.assign(pieces_.size(), none);
+    find_alone();
     std::vector<Facet_group> groups;
-    for (Index seed : order) {
+    groups.reserve(pieces_.size());
+    for (const Index seed : largest_first()) {
       if (group_of_[seed] != none) continue;
       const Index id = static_cast<Index>(groups.size());
       Facet_group group{grow(seed, id), pieces_[seed].plane, {}, {}};
       if (group.pieces.size() > 1 && !triangulate(group, id)) {
         // The projections overlap: each piece stays by itself.
-        const std::vector<Index> alone = group.pieces;
-        for (std::size_t i = 0; i < alone.size(); ++i) {
-          group_of_[alone[i]] = id + static_cast<Index>(i);
-          groups.push_back({{alone[i]}, pieces_[alone[i]].plane, {}, {}});
+        for (std::size_t i = 0; i < group.pieces.size(); ++i) {
+          const Index alone = group.pieces[i];
+          group_of_[alone] = id + static_cast<Index>(i);
+          groups.push_back({{alone}, pieces_[alone].plane, {}, {}});
         }
       } else {
         groups.push_back(std::move(group));
       }
     }
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      Facet_group& g = groups[i];
-      if (g.pieces.size() == 1) g.triangles = pieces_[g.pieces[0]].triangles;
-      g.segments = group_segments(g, static_cast<Index>(i));
-    }
-    std::sort(groups.begin(), groups.end(),
-              [](const Facet_group& a, const Facet_group& b) { return a.pieces[0] < b.pieces[0]; });
-    return groups;
+    std::vector<Index> order;
+    order.reserve(groups.size());
+    for (Index p = 0; p < pieces_.size(); ++p)
+      if (groups[group_of_[p]].pieces[0] == p) order.push_back(group_of_[p]);
+    std::vector<Facet_group> ordered(groups.size());
+    parallel_for_chunks(groups.size(), default_grain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        Facet_group& g = ordered[i] = std::move(groups[order[i]]);
+        if (g.pieces.size() == 1) g.triangles.assign(pieces_[g.pieces[0]].triangles.begin(), pieces_[g.pieces[0]].triangles.end());
+        g.segments = group_segments(g, order[i]);
+      }
+    });
+    return ordered;
   }
 
  private:
@@ -88,24 +94,24 @@ class Facet_fuser {
   void collect_edges(const std::vector<Explicit_segment>& segments) {
     struct Entry {
       Index_pair ends;
-      Index piece, position;
+      Index piece, edge;
     };
+    first_edge_.push_back(0);
+    for (const Facet_piece& p : pieces_) first_edge_.push_back(first_edge_.back() + static_cast<Index>(p.edges.size()));
     std::vector<Entry> entries;
-    edge_ids_.resize(pieces_.size());
-    for (Index p = 0; p < pieces_.size(); ++p) {
-      edge_ids_[p].resize(pieces_[p].edges.size());
+    entries.reserve(first_edge_.back());
+    for (Index p = 0; p < pieces_.size(); ++p)
       for (Index i = 0; i < pieces_[p].edges.size(); ++i) entries.push_back({pieces_[p].edges[i].ends, p, i});
-    }
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-      return a.ends < b.ends || (a.ends == b.ends && a.piece < b.piece);
-    });
+    parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return std::tie(a.ends, a.piece, a.edge) < std::tie(b.ends, b.piece, b.edge); });
+    edge_ids_.resize(entries.size());
+    uses_.reserve(entries.size());
     for (const Entry& e : entries) {
-      const Piece_edge& use = pieces_[e.piece].edges[e.position];
+      const Piece_edge& use = pieces_[e.piece].edges[e.edge];
       if (edges_.empty() || edges_.back().ends != e.ends)
         edges_.push_back({e.ends, uses_.size(), uses_.size(), false});
       uses_.push_back({e.piece, use.apex, use.internal});
       edges_.back().end_use = uses_.size();
-      edge_ids_[e.piece][e.position] = edges_.size() - 1;
+      edge_ids_[first_edge_[e.piece] + e.edge] = static_cast<Index>(edges_.size() - 1);
     }
     auto explicit_segment = segments.begin();
     for (Edge& e : edges_) {
@@ -119,13 +125,44 @@ class Facet_fuser {
     }
   }
 
+  /// Places of a piece's edges in `edges_`, as `Facet_piece::edges`.
+  std::span<const Index> edges_of(Index piece) const {
+    return {edge_ids_.data() + first_edge_[piece], first_edge_[piece + 1] - first_edge_[piece]};
+  }
+
+  std::vector<Index> largest_first() const {
+    std::vector<std::pair<double, Index>> order;
+    order.reserve(pieces_.size());
+    for (Index p = 0; p < pieces_.size(); ++p) order.emplace_back(-pieces_[p].area, p);
+    parallel_sort(order.begin(), order.end());
+    std::vector<Index> result;
+    result.reserve(order.size());
+    for (const auto& entry : order) result.push_back(entry.second);
+    return result;
+  }
+
+  /// On a curved surface nearly all pieces; in the order of the file, which is kinder to the cache than that of areas.
+  void find_alone() {
+    is_alone_.resize(pieces_.size());
+    parallel_for_chunks(pieces_.size(), default_grain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t p = first; p < last; ++p)
+        is_alone_[p] = std::ranges::none_of(edges_of(static_cast<Index>(p)), [&](Index edge) {
+          const Edge& e = edges_[edge];
+          if (!e.fusable) return false;
+          const Index q = uses_[e.first_use].piece;
+          return in_plane(q != p ? q : uses_[e.first_use + 1].piece, pieces_[p].plane);
+        });
+    });
+  }
+
   std::vector<Index> grow(Index seed, Index id) {
     const Facet_plane& plane = pieces_[seed].plane;
     std::vector<Index> members{seed};
     group_of_[seed] = id;
+    if (is_alone_[seed]) return members;
     for (std::size_t next = 0; next < members.size(); ++next) {
       const Index p = members[next];
-      for (std::size_t edge : edge_ids_[p]) {
+      for (const Index edge : edges_of(p)) {
         const Edge& e = edges_[edge];
         if (!e.fusable) continue;
         const bool first = uses_[e.first_use].piece == p;
@@ -169,7 +206,7 @@ class Facet_fuser {
   std::vector<Index_pair> group_segments(const Facet_group& group, Index id) const {
     std::vector<Index_pair> result;
     for (Index p : group.pieces)
-      for (std::size_t edge : edge_ids_[p])
+      for (const Index edge : edges_of(p))
         if (separates(edges_[edge], id)) result.push_back(edges_[edge].ends);
     sort_unique(result);
     return result;
@@ -219,7 +256,9 @@ class Facet_fuser {
   double tolerance_;
   std::vector<Edge_use> uses_;
   std::vector<Edge> edges_;
-  std::vector<std::vector<std::size_t>> edge_ids_;  ///< per piece, as `Facet_piece::edges`
+  std::vector<Index> first_edge_;  ///< of each piece, in `edge_ids_`, and the end
+  std::vector<Index> edge_ids_;
+  std::vector<char> is_alone_;  ///< of each piece, whether none of those beside it lies in its plane
   std::vector<Index> group_of_;
 };
 
