@@ -23,42 +23,54 @@ using Triangle = Kernel::Triangle_3;
 using Triangles = std::vector<Triangle>;
 using Point = Kernel::Point_3;
 
-Point point(const Plc& plc, Index v) {
-  const auto& p = plc.vertices[v];
-  return {p.x(), p.y(), p.z()};
-}
-
-std::optional<Triangles> triangles_of(const Plc& plc) {
+struct Surface {
+  std::vector<Point> points;
+  std::vector<std::array<Index, 3>> corners;  ///< of the triangles
   Triangles triangles;
+};
+
+std::optional<Surface> surface_of(const Plc& plc) {
+  Surface surface;
+  for (const auto& p : plc.vertices) surface.points.emplace_back(p.x(), p.y(), p.z());
   try {
-    for (const auto& [c, facet] : facet_triangles(plc)) triangles.emplace_back(point(plc, c[0]), point(plc, c[1]), point(plc, c[2]));
+    for (const auto& [c, facet] : facet_triangles(plc)) {
+      surface.corners.push_back(c);
+      surface.triangles.emplace_back(surface.points[c[0]], surface.points[c[1]], surface.points[c[2]]);
+    }
   } catch (const Input_error&) {
     return std::nullopt;
   }
-  return triangles;
+  return surface;
 }
 
 /// Of points of one surface from the other.
 class One_way {
  public:
-  One_way(const Triangles& to, double limit) : tree_(to.begin(), to.end()), squared_limit_(limit * limit) {
+  One_way(const Surface& to, double limit) : tree_(to.triangles.begin(), to.triangles.end()), squared_limit_(limit * limit) {
     tree_.build();
     tree_.accelerate_distance_queries();
   }
 
-  Surface_distance from(const Triangles& triangles) const {
-    return parallel_reduce(
-        triangles.size(), 256, Surface_distance{0, true, {}},
-        [&](std::size_t first, std::size_t last) {
-          Surface_distance d{0, true, {}};
-          std::size_t looks = most_looks;
-          for (std::size_t t = first; t < last && d.is_within; ++t) look(triangles[t], d, looks);
-          return d;
-        },
-        [](Surface_distance& all, const Surface_distance& part) {
-          all.is_within = all.is_within && part.is_within;
-          if (part.seen > all.seen) all.seen = part.seen, all.at = part.at;
-        });
+  Surface_distance from(const Surface& surface) const {
+    std::vector<bool> is_corner(surface.points.size(), false);
+    for (const auto& c : surface.corners)
+      for (const Index v : c) is_corner[v] = true;
+    std::vector<Corner> corners(surface.points.size());
+    Surface_distance result = all_within(surface.points.size(), [&](std::size_t v, Surface_distance& d, std::size_t&) {
+      if (is_corner[v]) corners[v] = corner(surface.points[v], d);
+    });
+    if (result.seen * result.seen > squared_limit_) result.is_within = false;
+    if (!result.is_within) return result;
+    add(result, all_within(surface.corners.size(), [&](std::size_t t, Surface_distance& d, std::size_t& looks) {
+      const auto& c = surface.corners[t];
+      look({corners[c[0]], corners[c[1]], corners[c[2]]}, d, looks);
+    }));
+    return result;
+  }
+
+  static void add(Surface_distance& all, const Surface_distance& part) {
+    all.is_within = all.is_within && part.is_within;
+    if (part.seen > all.seen) all.seen = part.seen, all.at = part.at;
   }
 
  private:
@@ -70,6 +82,20 @@ class One_way {
     const Triangle* nearest;
   };
 
+  /// \param look called with the number of an item, what to add to, and how many looks its part has left
+  template <class Look>
+  static Surface_distance all_within(std::size_t n, const Look& look) {
+    return parallel_reduce(
+        n, 256, Surface_distance{0, true, {}},
+        [&](std::size_t first, std::size_t last) {
+          Surface_distance d{0, true, {}};
+          std::size_t looks = most_looks;
+          for (std::size_t i = first; i < last && d.is_within; ++i) look(i, d, looks);
+          return d;
+        },
+        add);
+  }
+
   Corner corner(const Point& p, Surface_distance& d) const {
     const auto found = tree_.closest_point_and_primitive(p);
     const double distance = std::sqrt(CGAL::squared_distance(p, found.first));
@@ -77,8 +103,8 @@ class One_way {
     return {p, &*found.second};
   }
 
-  void look(const Triangle& triangle, Surface_distance& d, std::size_t& looks) const {
-    std::vector<std::array<Corner, 3>> parts{{corner(triangle[0], d), corner(triangle[1], d), corner(triangle[2], d)}};
+  void look(const std::array<Corner, 3>& triangle, Surface_distance& d, std::size_t& looks) const {
+    std::vector<std::array<Corner, 3>> parts{triangle};
     while (!parts.empty() && d.seen * d.seen <= squared_limit_) {
       const std::array<Corner, 3> part = parts.back();
       parts.pop_back();
@@ -114,12 +140,10 @@ class One_way {
 }  // namespace
 
 std::optional<Surface_distance> surface_distance(const Plc& a, const Plc& b, double limit) {
-  const auto from = triangles_of(a), to = triangles_of(b);
-  if (!from || !to || from->empty() || to->empty()) return std::nullopt;
+  const auto from = surface_of(a), to = surface_of(b);
+  if (!from || !to || from->corners.empty() || to->corners.empty()) return std::nullopt;
   Surface_distance there = One_way(*to, limit).from(*from);
-  const Surface_distance back = One_way(*from, limit).from(*to);
-  there.is_within = there.is_within && back.is_within;
-  if (back.seen > there.seen) there.seen = back.seen, there.at = back.at;
+  One_way::add(there, One_way(*from, limit).from(*to));
   return there;
 }
 
