@@ -10,8 +10,10 @@
 
 namespace pgdr {
 
+bool Understood::is_valid() const { return std::ranges::all_of(problems, &Input_problem::is_warning); }
+
 void Understood::require_valid() const {
-  if (!std::ranges::all_of(problems, &Input_problem::is_warning)) throw Input_error(problems);
+  if (!is_valid()) throw Input_error(problems);
 }
 
 Understood understand(const Plc& plc, double coplanar_tolerance, bool triangulate, std::size_t max_pairs) {

@@ -148,22 +148,20 @@ Low_corners low_corners(const Domain& domain, const Plc& input, double height) {
   return low;
 }
 
-Plc without_low_vertices(Plc plc, const Domain& domain, const Low_corners& low) {
-  return low.some_inside() ? without_vertices(std::move(plc), domain, low.inside) : plc;
-}
-
 /// What one fusing comes to.
 struct Flattened {
   Plc plc;
   Planarization done;
   bool is_final;  ///< no other triangles are fused the next time
+  std::optional<Domain> domain;  ///< of `plc`, if that is known
 };
 
 /// Makes the facets plane that are fused now; none where that is not valid, whatever is given up.
+/// \param plc with facets that are not grouped
 /// \param input where the vertices have been before anything was moved
 /// \param is_guarded whether facets may not fall onto each other
 std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_tolerance, bool triangulate, bool is_guarded) {
-  const Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
+  Domain domain = make_domain_3(plc, coplanar_tolerance, triangulate);
   plc = grouped(std::move(plc), domain);
   Planarizer planarizer(domain, input);
   std::optional<simplify_detail::Dihedral_guard> guard;  // made when the first vertex is about to move
@@ -171,8 +169,10 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
     const std::vector<Vec_3> points = planarizer.solution();
     if (planarizer.is_at(points)) {
       Planarization done = planarizer.report(points);
-      if (done.is_none()) return Flattened{ungrouped(std::move(plc)), done, true};
-      return Flattened{without_low_vertices(std::move(plc), domain, low_corners(domain, input, lowest * domain.tolerance)), done, true};
+      if (done.is_none()) return Flattened{ungrouped(std::move(plc)), done, true, std::move(domain)};
+      const Low_corners low = low_corners(domain, input, lowest * domain.tolerance);
+      if (low.some_inside()) return Flattened{without_vertices(std::move(plc), domain, low.inside), done, true, std::nullopt};
+      return Flattened{std::move(plc), done, true, std::move(domain)};
     }
     if (!guard && is_guarded) guard.emplace(domain);
     Plc result = moved(plc, domain, points);
@@ -187,7 +187,8 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
         if (!problem.facets.empty() && planarizer.leaves(problem.facets, points)) return std::nullopt;
         concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
       }
-      if (concerned.empty()) return Flattened{without_low_vertices(std::move(result), plane, low), planarizer.report(points), low.some_inside()};
+      if (concerned.empty() && low.some_inside()) return Flattened{without_vertices(std::move(result), plane, low.inside), planarizer.report(points), true, std::nullopt};
+      if (concerned.empty()) return Flattened{std::move(result), planarizer.report(points), false, std::nullopt};
     } catch (const Input_error& error) {
       for (const Input_problem& problem : error.problems())
         concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
@@ -200,9 +201,9 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
 
 }  // namespace
 
-Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done) {
-  if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done);
-  Flattened best{ungrouped(plc), {}, false};
+Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done, std::optional<Domain>* domain) {
+  if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done, domain);
+  Flattened best{ungrouped(plc), {}, false, std::nullopt};
   for (int fusing = 0; fusing < fusings && !best.is_final; ++fusing) {
     std::optional<Flattened> next = flattened(ungrouped(best.plc), plc, coplanar_tolerance, triangulate, true);
     // As fused, facets may intersect that do not once they are plane: within noise, a small angle is better than none.
@@ -211,6 +212,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
     best = std::move(*next);
   }
   if (done && !best.done.is_none()) *done = best.done;
+  if (domain) *domain = std::move(best.domain);
   return std::move(best.plc);
 }
 

@@ -43,13 +43,13 @@ class Planarization_passes {
   /// Where something was taken away since.
   void repeat_widest(Plc& plc, Planarization& done) const { one(plc, stages_.back(), done); }
   /// What is fused in the end.
-  void finish(Plc& plc, Planarization& done) const { one(plc, stages_.front(), done); }
+  void finish(Stage& stage) const { one(stage.plc, stages_.front(), stage.done.planarization, &stage.domain); }
 
  private:
-  void one(Plc& plc, double tolerance, Planarization& done) const {
+  void one(Plc& plc, double tolerance, Planarization& done, std::optional<Domain_3<Default_kernel>>* domain = nullptr) const {
     try {
       Planarization now;
-      plc = planarize(plc, tolerance, triangulate_, &now);
+      plc = planarize(plc, tolerance, triangulate_, &now, domain);
       done.flattened_facets += now.flattened_facets;
       done.bent_facets = now.bent_facets;
       done.moved_vertices += now.moved_vertices;
@@ -65,30 +65,30 @@ class Planarization_passes {
 
 }  // namespace
 
-Plc simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, Simplification_within& report, const Stage* noise_only) {
-  report = {};
+Stage simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, const Stage* noise_only) {
+  Stage result{plc, {}, std::nullopt};
+  Simplification_within& report = result.done;
   const double diagonal = bounding_diagonal(plc);
-  if (!(tolerance > 0) || !(diagonal > 0)) return plc;
+  if (!(tolerance > 0) || !(diagonal > 0)) return result;
   const double last = for_planarization * tolerance / diagonal;
   const bool is_wide = coplanar_tolerance > 0 && last > coplanar_tolerance;  // where nothing is fused, planes are of no use
   const Planarization_passes passes(is_wide ? last : coplanar_tolerance, coplanar_tolerance, triangulate);
-  Plc result = plc;
   const auto take_away = [&] {
     Simplification now;
-    result = simplify(result, is_wide ? for_simplification * tolerance : tolerance, &now);
-    if (now.is_none()) return;
+    result.plc = simplify(result.plc, is_wide ? for_simplification * tolerance : tolerance, &now);
+    if (now.is_none()) return false;
     report.simplification.facets = now.facets;
     report.simplification.collapsed_edges += now.collapsed_edges;
     report.simplification.removed_needles += now.removed_needles;
     report.simplification.largest_change += now.largest_change;
+    return true;
   };
-  if (is_wide) passes.run(result, report.planarization, noise_only && noise_only->done.simplification.is_none() ? noise_only : nullptr);
-  take_away();
-  if (is_wide) {
-    passes.repeat_widest(result, report.planarization);
+  if (is_wide) passes.run(result.plc, report.planarization, noise_only && noise_only->done.simplification.is_none() ? noise_only : nullptr);
+  if (take_away() && is_wide) {
+    passes.repeat_widest(result.plc, report.planarization);
     take_away();  // where two planes became one, what was between them is left as edges a thousandth as long
   }
-  passes.finish(result, report.planarization);
+  passes.finish(result);
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include <pgdr/domain/scale.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/valid_domain.h>
+#include <pgdr/domain/validate_domain_3.h>
 
 #include "simplify_in_stages.h"
 
@@ -41,11 +42,19 @@ struct Narrowness {
 std::optional<Understood> valid(const Plc& plc, double coplanar_tolerance, bool triangulate) {
   try {
     Understood understood = understand(plc, coplanar_tolerance, triangulate);
-    understood.require_valid();
-    return understood;
-  } catch (const Input_error&) {
-    return std::nullopt;
+    if (understood.is_valid()) return understood;
+  } catch (const Input_error&) {  // not even understood
   }
+  return std::nullopt;
+}
+
+/// The same for its PLC, and takes its domain.
+std::optional<Understood> valid(simplify_detail::Stage& stage, double coplanar_tolerance, bool triangulate) {
+  if (!stage.domain) return valid(stage.plc, coplanar_tolerance, triangulate);
+  Understood understood{std::move(*std::exchange(stage.domain, std::nullopt)), {}};
+  understood.problems = validate_domain_3(understood.domain);
+  if (!understood.is_valid()) return std::nullopt;
+  return understood;
 }
 
 Narrowness narrowness(const Domain_3<Default_kernel>& domain) {
@@ -80,29 +89,30 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   if (exponent_for(plc) != 0) return simplify_within(normalized(plc), tolerance, coplanar_tolerance, triangulate, done);
   const double fused = coplanar_tolerance * bounding_diagonal(plc), limit = tolerance + fused, unit = unit_of(plc);
   const bool is_wide = fused > 0 && tolerance > fused;
-  simplify_detail::Stage noise;
-  noise.plc = simplify_detail::simplify_in_stages(plc, is_wide ? fused : tolerance, coplanar_tolerance, triangulate, noise.done);
+  simplify_detail::Stage noise = simplify_detail::simplify_in_stages(plc, is_wide ? fused : tolerance, coplanar_tolerance, triangulate);
   // What moves vertices looks itself whether the result is valid; what takes them away does not know what is fused.
   std::optional<Understood> before;
-  if (is_wide || !noise.done.simplification.is_none()) before = valid(noise.plc, coplanar_tolerance, triangulate);
+  if (is_wide || noise.domain || !noise.done.simplification.is_none()) before = valid(noise, coplanar_tolerance, triangulate);
   if (is_wide) {
-    const std::optional narrow = before ? std::optional(narrowness(before->domain)) : std::nullopt;
+    std::optional<Narrowness> narrow;
+    if (before) narrow = narrowness(before->domain);
     // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
     for (int attempt = 0;; ++attempt) {
       const double within = std::ldexp(tolerance, attempt == 0 ? 1 : 2 - 2 * attempt);
       if (!(within > fused)) break;
-      Plc result = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, report, &noise);
-      if (report.is_none()) break;
-      auto now = valid(result, coplanar_tolerance, triangulate);
+      simplify_detail::Stage wide = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, &noise);
+      if (wide.done.is_none()) break;
+      auto now = valid(wide, coplanar_tolerance, triangulate);
       // Less will hardly mend what is not valid as it is, and tries cost seconds.
       if (!now && !before && !valid(plc, coplanar_tolerance, triangulate)) break;
       if (!now || (narrow && is_worse(narrowness(now->domain), *narrow, std::min(within, tolerance) / unit))) continue;
-      const auto distance = surface_distance(plc, result, limit / unit);
+      const auto distance = surface_distance(plc, wide.plc, limit / unit);
       if (!distance || !distance->is_within) continue;
+      report = wide.done;
       report.limit = limit;
       report.distance = {unit * distance->seen, true, unit * distance->at};
       report.understood = std::move(now);
-      return result;
+      return std::move(wide.plc);
     }
   }
   if (before || noise.done.simplification.is_none()) {
@@ -110,7 +120,6 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
     report.understood = std::move(before);
     return noise.plc;
   }
-  report = {};
   try {
     return planarize(plc, coplanar_tolerance, triangulate, &report.planarization);
   } catch (const Input_error&) {

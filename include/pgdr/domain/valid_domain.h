@@ -16,6 +16,9 @@ struct Understood {
   Domain_3<Default_kernel> domain;
   std::vector<Input_problem> problems;  ///< of `validate_domain_3`
 
+  /// Whether the problems are only warnings.
+  bool is_valid() const;
+
   /// Throws `Input_error` with all that is wrong, unless these are only warnings.
   void require_valid() const;
 };

@@ -3,8 +3,10 @@
 #define PGDR_SIMPLIFY_PLANARIZE_H
 
 #include <cstddef>
+#include <optional>
 
 #include <pgdr/domain/default_kernel.h>
+#include <pgdr/domain/domain_3.h>
 
 namespace pgdr {
 
@@ -31,8 +33,10 @@ struct Planarization {
 /// what it was. (Within noise it may, if facets would intersect otherwise.) The facets of the result are grouped as they are plane, so that `make_domain_3` fuses these and no others.
 /// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the PLC. The tolerance is the limit, too; along their facets
 ///   vertices may move up to 16 times as far, which is what facets at small angles to each other need.
+/// \param domain what `make_domain_3` makes of the result, where that is known: with a million facets it takes seconds
 /// \return `plc` itself where nothing was to be done. Throws what `make_domain_3` throws
-Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate = false, Planarization* done = nullptr);
+Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate = false, Planarization* done = nullptr,
+              std::optional<Domain_3<Default_kernel>>* domain = nullptr);
 
 }  // namespace pgdr
 
