@@ -5,16 +5,18 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Object.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <pgdr/domain/detail/box_pairs.h>
 #include <pgdr/domain/detail/intersecting_triangles.h>
 
 #include "steps.h"
@@ -222,10 +224,9 @@ Pairs meeting_pairs(const Soup& soup) {
     const Corners& c = soup.triangles[t].corners;
     boxes.push_back({to_work_point(soup.points[c[0]]).bbox() + to_work_point(soup.points[c[1]]).bbox() + to_work_point(soup.points[c[2]]).bbox(), t});
   }
-  Pairs pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+  Pairs pairs = domain_detail::Box_slabs(std::move(boxes)).pairs<Pairs::value_type>([&](const Box& a, const Box& b, Pairs& list) {
     const Index s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
-    if (domain_detail::triangles_meet(soup.triangles[s].corners, soup.triangles[t].corners, soup.points)) pairs.emplace_back(s, t);
+    if (domain_detail::triangles_meet(soup.triangles[s].corners, soup.triangles[t].corners, soup.points)) list.emplace_back(s, t);
   });
   std::ranges::sort(pairs);
   return pairs;
