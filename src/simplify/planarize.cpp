@@ -156,6 +156,12 @@ struct Flattened {
   std::optional<Domain> domain;  ///< of `plc`, if that is known
 };
 
+/// A PLC, which `domain` was made from, without its low vertices that may go, where it has some.
+Flattened without_low_vertices(Plc plc, Domain domain, const Low_corners& low, const Planarization& done, bool is_final) {
+  if (low.some_inside()) return {without_vertices(std::move(plc), domain, low.inside), done, true, std::nullopt};
+  return {std::move(plc), done, is_final, std::move(domain)};
+}
+
 /// Makes the facets plane that are fused now; none where that is not valid, whatever is given up.
 /// \param plc with facets that are not grouped
 /// \param input where the vertices have been before anything was moved
@@ -171,14 +177,13 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
       Planarization done = planarizer.report(points);
       if (done.is_none()) return Flattened{ungrouped(std::move(plc)), done, true, std::move(domain)};
       const Low_corners low = low_corners(domain, input, lowest * domain.tolerance);
-      if (low.some_inside()) return Flattened{without_vertices(std::move(plc), domain, low.inside), done, true, std::nullopt};
-      return Flattened{std::move(plc), done, true, std::move(domain)};
+      return without_low_vertices(std::move(plc), std::move(domain), low, done, true);
     }
     if (!guard && is_guarded) guard.emplace(domain);
     Plc result = moved(plc, domain, points);
     std::vector<Index> concerned;
     try {
-      const Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
+      Domain plane = make_domain_3(result, coplanar_tolerance, triangulate);
       const Low_corners low = low_corners(plane, input, lowest * plane.tolerance);
       concerned = low.facets;
       if (guard) guard->add_sharpened(plane, concerned);
@@ -187,8 +192,7 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
         if (!problem.facets.empty() && planarizer.leaves(problem.facets, points)) return std::nullopt;
         concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
       }
-      if (concerned.empty() && low.some_inside()) return Flattened{without_vertices(std::move(result), plane, low.inside), planarizer.report(points), true, std::nullopt};
-      if (concerned.empty()) return Flattened{std::move(result), planarizer.report(points), false, std::nullopt};
+      if (concerned.empty()) return without_low_vertices(std::move(result), std::move(plane), low, planarizer.report(points), false);
     } catch (const Input_error& error) {
       for (const Input_problem& problem : error.problems())
         concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());

@@ -90,7 +90,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   const double fused = coplanar_tolerance * bounding_diagonal(plc), limit = tolerance + fused, unit = unit_of(plc);
   const bool is_wide = fused > 0 && tolerance > fused;
   simplify_detail::Stage noise = simplify_detail::simplify_in_stages(plc, is_wide ? fused : tolerance, coplanar_tolerance, triangulate);
-  // What moves vertices looks itself whether the result is valid; what takes them away does not know what is fused.
+  // What moves vertices looks itself whether the result is valid, so that it is not understood for that; what takes them away does not know what is fused.
   std::optional<Understood> before;
   if (is_wide || noise.domain || !noise.done.simplification.is_none()) before = valid(noise, coplanar_tolerance, triangulate);
   if (is_wide) {
