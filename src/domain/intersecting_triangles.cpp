@@ -2,7 +2,9 @@
 #include <pgdr/domain/detail/intersecting_triangles.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <CGAL/Cartesian_converter.h>
@@ -15,30 +17,44 @@
 
 namespace pgdr::domain_detail {
 
-bool triangles_meet(std::array<Index, 3> a, std::array<Index, 3> b, const std::vector<Vec_3>& points) {
-  const auto point = [&](Index v) { return to_work_point(points[v]); };
-  const auto triangle = [&](const std::array<Index, 3>& t) { return Work_kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2])); };
-  // Rotate the common vertices to the front.
-  const auto shared = [](const std::array<Index, 3>& in) {
-    return [&in](Index v) { return std::find(in.begin(), in.end(), v) != in.end(); };
+namespace {
+
+/// `t` with what it shares with another one in front, in the order that it has there; and how many that are.
+std::pair<std::array<Index, 3>, std::size_t> shared_first(const std::array<Index, 3>& t, const std::array<Index, 3>& other) {
+  std::array<Index, 3> result{};
+  std::size_t common = 0, last = 3;
+  for (const Index v : t)
+    if (v == other[0] || v == other[1] || v == other[2]) result[common++] = v;
+  for (std::size_t i = 3; i-- > 0;)
+    if (const Index v = t[i]; v != other[0] && v != other[1] && v != other[2]) result[--last] = v;
+  return {result, common};
+}
+
+}  // namespace
+
+bool triangles_meet(const std::array<Index, 3>& s, const std::array<Index, 3>& t, const std::vector<Vec_3>& points) {
+  const auto [a, common] = shared_first(s, t);
+  const auto b = shared_first(t, s).first;
+  const auto corners = [&](const std::array<Index, 3>& c) {
+    return std::array{to_work_point(points[c[0]]), to_work_point(points[c[1]]), to_work_point(points[c[2]])};
   };
-  const auto common = std::stable_partition(a.begin(), a.end(), shared(b)) - a.begin();
-  std::stable_partition(b.begin(), b.end(), shared(a));
+  const std::array<Work_point, 3> p = corners(a), q = corners(b);
+  if (common == 3) return true;
+  if (common == 2)
+    return CGAL::orientation(p[0], p[1], p[2], q[2]) == CGAL::COPLANAR && CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
+  // Mostly one of them is on one side of the other's plane, which is found out sooner than anything else.
+  const auto is_beside = [common = common](const std::array<Work_point, 3>& x, const std::array<Work_point, 3>& y) {
+    const CGAL::Orientation side = CGAL::orientation(x[0], x[1], x[2], y[2]);
+    return side != CGAL::COPLANAR && side == CGAL::orientation(x[0], x[1], x[2], y[1]) &&
+           (common == 1 || side == CGAL::orientation(x[0], x[1], x[2], y[0]));
+  };
+  if (is_beside(p, q) || is_beside(q, p)) return false;
+  const Work_kernel::Triangle_3 first(p[0], p[1], p[2]), second(q[0], q[1], q[2]);
   // A triangle without area is no more than its edges, which its neighbors have, too; and no predicate takes one.
-  if (common < 2 && (triangle(a).is_degenerate() || triangle(b).is_degenerate())) return false;
-  switch (common) {
-    case 0:
-      return CGAL::do_intersect(triangle(a), triangle(b));
-    case 1:  // what they have in common beyond the vertex would reach an opposite edge
-      return CGAL::do_intersect(Work_kernel::Segment_3(point(a[1]), point(a[2])), triangle(b)) ||
-             CGAL::do_intersect(Work_kernel::Segment_3(point(b[1]), point(b[2])), triangle(a));
-    case 2: {
-      const Work_point p = point(a[0]), q = point(a[1]), x = point(a[2]), y = point(b[2]);
-      return CGAL::orientation(p, q, x, y) == CGAL::COPLANAR && CGAL::coplanar_orientation(p, q, x, y) == CGAL::POSITIVE;
-    }
-    default:
-      return true;
-  }
+  if (first.is_degenerate() || second.is_degenerate()) return false;
+  if (common == 0) return CGAL::do_intersect(first, second);
+  // What they have in common beyond the vertex would reach an opposite edge.
+  return CGAL::do_intersect(Work_kernel::Segment_3(p[1], p[2]), second) || CGAL::do_intersect(Work_kernel::Segment_3(q[1], q[2]), first);
 }
 
 Intersection_finder::Intersection_finder(const Triangle_soup& soup) : soup_(soup) {

@@ -43,7 +43,7 @@ class Simplifier {
   };
 
   Simplifier(Triangle_complex& complex, const Fixed& fixed, double tolerance)
-      : complex_(complex), fixed_(fixed), tolerance_(tolerance), change_(fixed.vertices.size(), 0) {}
+      : complex_(complex), fixed_(fixed), tolerance_(tolerance), change_(fixed.vertices.size(), 0), is_changed_(fixed.vertices.size(), true) {}
 
   /// The steps that were done, as `Fixed::steps`; `Triangle::step` counts them from 1.
   const std::vector<Corners>& steps() const { return steps_; }
@@ -53,8 +53,7 @@ class Simplifier {
     // What was refused may be possible once its neighbors have changed. Every step takes a vertex away, or raises the lowest of the
     // triangles that it changes, so that there is a last one.
     for (std::size_t before = 0;; before = steps_.size()) {
-      for (const Triangle& t : complex_.triangles())
-        if (t.alive) enqueue(t.corners);
+      enqueue_near_changes();
       while (!queue_.empty()) {
         const Candidate c = queue_.top();
         queue_.pop();
@@ -88,6 +87,20 @@ class Simplifier {
     for (const auto& [a, b] : {std::pair{c[0], c[1]}, {c[0], c[2]}, {c[1], c[2]}})
       if (const double l = complex_.edge_length(a, b); l <= tolerance_) queue_.push({l, {a, b, none}});
     if (const double h = complex_.height(c); h <= tolerance_) queue_.push({h, c});
+  }
+
+  /// What a step depends on has common triangles with its corners, or meets its triangles in space; the latter alone is not looked for.
+  void enqueue_near_changes() {
+    const auto is_at = [](const std::vector<bool>& vertices, const Triangle& t) {
+      return t.alive && std::ranges::any_of(t.corners, [&](Index v) { return vertices[v]; });
+    };
+    std::vector<bool> is_near(is_changed_.size(), false);
+    for (const Triangle& t : complex_.triangles())
+      if (is_at(is_changed_, t))
+        for (const Index v : t.corners) is_near[v] = true;
+    for (const Triangle& t : complex_.triangles())
+      if (is_at(is_near, t)) enqueue(t.corners);
+    is_changed_.assign(is_changed_.size(), false);
   }
 
   bool collapse(Index a, Index b) {
@@ -241,6 +254,8 @@ class Simplifier {
     if (complex_.would_meet(made_, removed_) || sharpens()) return false;
     steps_.push_back(step_);
     for (Triangle& t : made_) t.step = static_cast<Index>(steps_.size());
+    for (const Index t : removed_)
+      for (const Index v : complex_.triangles()[t].corners) is_changed_[v] = true;
     complex_.replace(removed_, made_);
     for (const Triangle& t : made_) enqueue(t.corners);
     return true;
@@ -260,6 +275,7 @@ class Simplifier {
   const Fixed& fixed_;
   double tolerance_;
   std::vector<double> change_;  ///< of each vertex
+  std::vector<bool> is_changed_;  ///< vertices whose triangles are others than when all was enqueued last
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
   Corners step_{};  ///< that is being tried
   std::vector<Corners> steps_;

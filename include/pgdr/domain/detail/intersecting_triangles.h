@@ -15,7 +15,7 @@ namespace pgdr::domain_detail {
 using Id_pair = std::array<std::size_t, 2>;
 
 /// Whether two triangles meet other than in common vertices and edges. Exact.
-bool triangles_meet(std::array<Index, 3> a, std::array<Index, 3> b, const std::vector<Vec_3>& points);
+bool triangles_meet(const std::array<Index, 3>& s, const std::array<Index, 3>& t, const std::vector<Vec_3>& points);
 
 /// Finds what meets other than in common vertices and edges, by exact predicates.
 class Intersection_finder {
