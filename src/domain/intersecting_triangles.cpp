@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -30,25 +31,56 @@ std::pair<std::array<Index, 3>, std::size_t> shared_first(const std::array<Index
   return {result, common};
 }
 
+using Corners = std::array<Work_point, 3>;
+
+/// Whether the line along a side parts two triangles of one plane, but for the first corners, which they have in common. If not, they may still be apart.
+bool are_parted(const Corners& p, const Corners& q, std::size_t common) {
+  const Vec_3 n = cross(to_vec(p[1]) - to_vec(p[0]), to_vec(p[2]) - to_vec(p[0]));
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(n[k]) > std::abs(n[axis])) axis = k;
+  // Seen along it nothing is turned over, and the predicates are as exact.
+  const auto seen = [axis](const Work_point& x) { return Work_kernel::Point_2(x[(axis + 1) % 3], x[(axis + 2) % 3]); };
+  const std::array of_p{seen(p[0]), seen(p[1]), seen(p[2])}, of_q{seen(q[0]), seen(q[1]), seen(q[2])};
+  const auto parts = [common](const auto& x, const auto& y) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const CGAL::Orientation inside = CGAL::orientation(x[i], x[j], x[(i + 2) % 3]);
+      if (inside == CGAL::COLLINEAR) return false;
+      bool is_apart = true;
+      for (std::size_t k = 0; k < 3 && is_apart; ++k) {
+        const bool is_on_side = k < common && (k == i || k == j);
+        is_apart = is_on_side || CGAL::orientation(x[i], x[j], y[k]) == -inside;
+      }
+      if (is_apart) return true;
+    }
+    return false;
+  };
+  return parts(of_p, of_q) || parts(of_q, of_p);
+}
+
 }  // namespace
 
 bool triangles_meet(const std::array<Index, 3>& s, const std::array<Index, 3>& t, const std::vector<Vec_3>& points) {
   const auto [a, common] = shared_first(s, t);
   const auto b = shared_first(t, s).first;
   const auto corners = [&](const std::array<Index, 3>& c) {
-    return std::array{to_work_point(points[c[0]]), to_work_point(points[c[1]]), to_work_point(points[c[2]])};
+    return Corners{to_work_point(points[c[0]]), to_work_point(points[c[1]]), to_work_point(points[c[2]])};
   };
-  const std::array<Work_point, 3> p = corners(a), q = corners(b);
+  const Corners p = corners(a), q = corners(b);
   if (common == 3) return true;
   if (common == 2)
     return CGAL::orientation(p[0], p[1], p[2], q[2]) == CGAL::COPLANAR && CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
-  // Mostly one of them is on one side of the other's plane, which is found out sooner than anything else.
-  const auto is_beside = [common = common](const std::array<Work_point, 3>& x, const std::array<Work_point, 3>& y) {
+  // Mostly one of them is on one side of the other's plane, or of a side of the other in that, which is found out sooner than anything else.
+  enum class Place { beside, in_plane, other };
+  const auto place = [common = common](const Corners& x, const Corners& y) {
     const CGAL::Orientation side = CGAL::orientation(x[0], x[1], x[2], y[2]);
-    return side != CGAL::COPLANAR && side == CGAL::orientation(x[0], x[1], x[2], y[1]) &&
-           (common == 1 || side == CGAL::orientation(x[0], x[1], x[2], y[0]));
+    for (std::size_t i = common; i < 2; ++i)
+      if (CGAL::orientation(x[0], x[1], x[2], y[i]) != side) return Place::other;
+    return side == CGAL::COPLANAR ? Place::in_plane : Place::beside;
   };
-  if (is_beside(p, q) || is_beside(q, p)) return false;
+  const Place of_q = place(p, q);
+  if (of_q == Place::beside || (of_q == Place::in_plane ? are_parted(p, q, common) : place(q, p) == Place::beside)) return false;
   const Work_kernel::Triangle_3 first(p[0], p[1], p[2]), second(q[0], q[1], q[2]);
   // A triangle without area is no more than its edges, which its neighbors have, too; and no predicate takes one.
   if (first.is_degenerate() || second.is_degenerate()) return false;

@@ -3,6 +3,7 @@
 #define PGDR_SIMPLIFY_SIMPLIFY_IN_STAGES_H
 
 #include <optional>
+#include <vector>
 
 #include <pgdr/simplify/simplify_within.h>
 
@@ -12,13 +13,31 @@ namespace pgdr::simplify_detail {
 struct Stage {
   Plc plc;
   Simplification_within done;
-  std::optional<Domain_3<Default_kernel>> domain;  ///< as `planarize` gives it
+  std::optional<Domain_3<Default_kernel>> domain;  ///< as the last `planarize` gave it
 };
 
-/// What `simplify_within` does with one tolerance, without looking at what came of it: it may be invalid where features are closer to each other
-/// than the tolerance, or worse than before.
-/// \param noise_only what this did to the same PLC for a tolerance of noise: where nothing was simplified then, it is the first stage of any other
-Stage simplify_in_stages(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, const Stage* noise_only = nullptr);
+/// What `simplify_within` does with one tolerance, step by step, without looking at what comes of it: it may be invalid where features are closer to each
+/// other than the tolerance, or worse than before.
+class Simplification_stages {
+ public:
+  Simplification_stages(double tolerance, double diagonal, double coplanar_tolerance, bool triangulate);
+
+  /// Makes plane what is nearly so.
+  /// \param noise_only what all of this did to the same PLC for a tolerance of noise, if that is known: where nothing was taken away then, it is the first pass of any other
+  Stage make_plane(const Plc& plc, const Stage* noise_only = nullptr) const;
+  /// Takes needles and short edges away, and makes plane what is nearly so after that. Whether there were any.
+  bool take_away(Stage& stage) const;
+  /// Fuses what is to be fused in the end.
+  void finish(Stage& stage) const;
+
+ private:
+  bool take_away_once(Stage& stage) const;
+  void planarize_within(Stage& stage, double coplanar_tolerance) const;
+
+  double tolerance_, coplanar_tolerance_;
+  bool triangulate_;
+  std::vector<double> passes_;  ///< from narrow to wide; none where nothing is fused, so that planes are of no use
+};
 
 }  // namespace pgdr::simplify_detail
 

@@ -2,7 +2,6 @@
 #include <pgdr/simplify/simplify_within.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -14,6 +13,7 @@
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/valid_domain.h>
 #include <pgdr/domain/validate_domain_3.h>
+#include <pgdr/simplify/narrowness.h>
 
 #include "simplify_in_stages.h"
 
@@ -21,22 +21,7 @@ namespace pgdr {
 
 namespace {
 
-/// How often a corner of a facet would have to be halved to get from the angle above which the bound on the ratio can hold to its own, with fractions.
-/// Tetrahedra that needles cost go by it, about a thousand for each: a knob (a26) has 7,546 of them, all together, and 7.0 million, after 1e-4d 385 and 0.5; cones17 710
-/// and 0.6, or 1,145 and 0.9.
-double halvings(double angle_deg) {
-  constexpr double least = 1e-9;
-  double n = 0;
-  for (double angle = Small_angles::critical_plane_angle_deg; angle_deg < angle && angle > least; angle /= 2) n += std::min(1.0, angle / std::max(angle_deg, least) - 1);
-  return n;
-}
-
-/// What makes elements small in a domain.
-struct Narrowness {
-  double lowest = std::numeric_limits<double>::infinity();  ///< height of the lowest triangle of the facets
-  double corners = 0;  ///< `halvings` of all corners of facets
-  double facets = 0;   ///< how many, fused
-};
+using simplify_detail::Stage;
 
 /// None if the PLC is not valid.
 std::optional<Understood> valid(const Plc& plc, double coplanar_tolerance, bool triangulate) {
@@ -49,7 +34,7 @@ std::optional<Understood> valid(const Plc& plc, double coplanar_tolerance, bool 
 }
 
 /// The same for its PLC, and takes its domain.
-std::optional<Understood> valid(simplify_detail::Stage& stage, double coplanar_tolerance, bool triangulate) {
+std::optional<Understood> valid(Stage& stage, double coplanar_tolerance, bool triangulate) {
   if (!stage.domain) return valid(stage.plc, coplanar_tolerance, triangulate);
   Understood understood{std::move(*std::exchange(stage.domain, std::nullopt)), {}};
   understood.problems = validate_domain_3(understood.domain);
@@ -57,27 +42,32 @@ std::optional<Understood> valid(simplify_detail::Stage& stage, double coplanar_t
   return understood;
 }
 
-Narrowness narrowness(const Domain_3<Default_kernel>& domain) {
-  std::vector<Vec_3> points;
-  for (const auto& p : domain.vertices) points.push_back(to_vec(p));
-  Narrowness n;
-  for (const auto& facet : domain.facets)
-    for (const auto& t : facet.triangles)
-      for (int i = 0; i < 3; ++i)
-        n.lowest = std::min(n.lowest, std::sqrt(squared_distance_to_line(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]])));
-  n.facets = static_cast<double>(domain.facets.size());
-  for (const auto& corner : domain_detail::Facet_edges(domain).corners(points)) n.corners += halvings(corner.angle_deg);
-  return n;
+/// How much more than without is as good, of what tetrahedra are expected.
+constexpr double as_good = 0.01;
+
+/// What a domain is expected to cost, beside one `without` anything done. New needles count for more than the most that those of an input have cost: there may be no
+/// end next to them (a30 with 1e-4d, 57 halvings more).
+double cost(const Narrowness& n, const std::optional<Narrowness>& without) {
+  constexpr double for_new_halving = 2000;
+  return n.tetrahedra() + (without ? for_new_halving * std::max(0.0, n.halvings - without->halvings) : 0);
 }
 
-/// Whether a wider tolerance has made matters worse: a vertex that came next to an edge, or narrower corners altogether, that are not outweighed by facets
-/// that are gone.
-bool is_worse(const Narrowness& now, const Narrowness& noise_only, double tolerance) {
-  constexpr double much_lower = 0.01;  // of the tolerance, and below half of what there was
-  // A facet of a scan gets about five tetrahedra (a05 5.3, a14 5.1, a11 7), a halving about a thousand.
-  constexpr double facets_of_halving = 200;
-  return (now.lowest < much_lower * tolerance && now.lowest < noise_only.lowest / 2) || now.corners - noise_only.corners > (noise_only.facets - now.facets) / facets_of_halving;
+/// Whether nothing needs to be taken away from what was made plane: it has no needles, and half the tetrahedra at most.
+bool is_enough(const Stage& planes, const std::optional<Narrowness>& without) {
+  if (!planes.domain || !without) return false;
+  const Narrowness n = narrowness(*planes.domain);
+  return n.halvings == 0 && n.tetrahedra() < without->tetrahedra() / 2;
 }
+
+/// What may come of it.
+struct Candidate {
+  Candidate(Stage s, Understood u, bool all) : stage(std::move(s)), understood(std::move(u)), narrow(narrowness(understood.domain)), is_all(all) {}
+  Stage stage;
+  Understood understood;
+  Narrowness narrow;
+  bool is_all;  ///< that can be done, not planes alone
+  std::optional<Surface_distance> distance;
+};
 
 }  // namespace
 
@@ -87,9 +77,14 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   report = {};
   if (!(tolerance > 0)) return plc;
   if (exponent_for(plc) != 0) return simplify_within(normalized(plc), tolerance, coplanar_tolerance, triangulate, done);
-  const double fused = coplanar_tolerance * bounding_diagonal(plc), limit = tolerance + fused, unit = unit_of(plc);
+  const double diagonal = bounding_diagonal(plc), fused = coplanar_tolerance * diagonal, limit = tolerance + fused, unit = unit_of(plc);
+  if (!(diagonal > 0)) return plc;
   const bool is_wide = fused > 0 && tolerance > fused;
-  simplify_detail::Stage noise = simplify_detail::simplify_in_stages(plc, is_wide ? fused : tolerance, coplanar_tolerance, triangulate);
+  const auto stages_within = [&](double t) { return simplify_detail::Simplification_stages(t, diagonal, coplanar_tolerance, triangulate); };
+  const simplify_detail::Simplification_stages of_noise = stages_within(is_wide ? fused : tolerance);
+  Stage noise = of_noise.make_plane(plc);
+  of_noise.take_away(noise);
+  of_noise.finish(noise);
   // What moves vertices looks itself whether the result is valid, so that it is not understood for that; what takes them away does not know what is fused.
   std::optional<Understood> before;
   if (is_wide || noise.domain || !noise.done.simplification.is_none()) before = valid(noise, coplanar_tolerance, triangulate);
@@ -97,22 +92,47 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
     std::optional<Narrowness> narrow;
     if (before) narrow = narrowness(before->domain);
     // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
-    for (int attempt = 0;; ++attempt) {
-      const double within = std::ldexp(tolerance, attempt == 0 ? 1 : 2 - 2 * attempt);
-      if (!(within > fused)) break;
-      simplify_detail::Stage wide = simplify_detail::simplify_in_stages(plc, within, coplanar_tolerance, triangulate, &noise);
-      if (wide.done.is_none()) break;
-      auto now = valid(wide, coplanar_tolerance, triangulate);
+    double within = 2 * tolerance;
+    std::optional<Candidate> best;
+    for (int attempt = 0; within > fused; within *= attempt++ % 2 == 0 ? 0.5 : 0.2) {
+      const simplify_detail::Simplification_stages stages = stages_within(within);
+      Stage planes = stages.make_plane(plc, &noise);
+      std::vector<Candidate> candidates;
+      const auto look_at = [&](Stage& stage, bool is_all) {
+        stages.finish(stage);
+        if (auto now = valid(stage, coplanar_tolerance, triangulate)) candidates.emplace_back(std::move(stage), std::move(*now), is_all);
+      };
+      bool is_all = false;
+      if (!is_enough(planes, narrow)) {
+        Stage others{planes.plc, planes.done, std::nullopt};
+        is_all = !stages.take_away(others);
+        if (is_all && planes.done.is_none()) break;
+        if (!is_all) look_at(others, true);
+      }
+      // Taking vertices away can leave needles, above all where strips end.
+      if (candidates.empty() || candidates[0].narrow.halvings > 0) look_at(planes, is_all);
       // Less will hardly mend what is not valid as it is, and tries cost seconds.
-      if (!now && !before && !valid(plc, coplanar_tolerance, triangulate)) break;
-      if (!now || (narrow && is_worse(narrowness(now->domain), *narrow, std::min(within, tolerance) / unit))) continue;
-      const auto distance = surface_distance(plc, wide.plc, limit / unit);
-      if (!distance || !distance->is_within) continue;
-      report = wide.done;
+      if (candidates.empty() && !before && !valid(plc, coplanar_tolerance, triangulate)) break;
+      std::ranges::stable_sort(candidates, {}, [&](const Candidate& c) { return cost(c.narrow, narrow); });
+      const double most = best ? cost(best->narrow, narrow) : narrow ? (1 + as_good) * narrow->tetrahedra() : std::numeric_limits<double>::infinity();
+      bool is_better = false;
+      for (Candidate& c : candidates) {
+        if (cost(c.narrow, narrow) > most) break;
+        c.distance = surface_distance(plc, c.stage.plc, limit / unit);
+        if (!c.distance || !c.distance->is_within) continue;
+        is_better = !best || cost(c.narrow, narrow) < most;
+        best = std::move(c);
+        break;
+      }
+      // Planes alone may be better when they are not sought as widely.
+      if (best && (best->is_all || !is_better)) break;
+    }
+    if (best) {
+      report = best->stage.done;
       report.limit = limit;
-      report.distance = {unit * distance->seen, true, unit * distance->at};
-      report.understood = std::move(now);
-      return std::move(wide.plc);
+      report.distance = {unit * best->distance->seen, true, unit * best->distance->at};
+      report.understood = std::move(best->understood);
+      return std::move(best->stage.plc);
     }
   }
   if (before || noise.done.simplification.is_none()) {

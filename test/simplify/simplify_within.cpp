@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/io/read_plc.h>
+#include <pgdr/simplify/narrowness.h>
 #include <pgdr/simplify/surface_distance.h>
 
 #include "catch.h"
@@ -52,6 +54,19 @@ TEST_CASE("Strips that are plane within the tolerance become plane facets", "[si
   CHECK(make_domain_3(simplify_within(bar, 1e-5, 1e-6)).facets.size() == 2 * 48 + 2);
   CHECK(simplify_within(bar, 0, 1e-6, false, &done).vertices == bar.vertices);
   CHECK(done.is_none());
+}
+
+TEST_CASE("A wide tolerance leaves no needles where strips end", "[simplify]") {
+  // Its two rims have edges shorter than the tolerance, and collapsed in an order of their own leave strips whose sides meet.
+  Plc bar = noisy_bar(360, 2e-5);
+  for (auto& p : bar.vertices) p = {p.x(), p.y(), 20 * p.z()};
+  const double tolerance = 1e-3 * bounding_diagonal(bar);
+  Simplification_within done;
+  const Plc simpler = simplify_within(bar, tolerance, 1e-6, false, &done);
+  const auto without = narrowness(make_domain_3(simplify_within(bar, 1e-6 * bounding_diagonal(bar), 1e-6))), with = narrowness(make_domain_3(simpler));
+  CHECK(with.halvings == 0);
+  CHECK(with.widths < without.widths / 2);
+  CHECK(done.distance.is_within);
 }
 
 TEST_CASE("No wider than what is fused, only that is made plane", "[simplify]") {
@@ -116,6 +131,16 @@ TEST_CASE("Making facets plane makes no small dihedral angles", "[simplify][mode
   const Plc plc = normalized(read_plc(*file));
   const auto smallest = [](const Plc& p) { return small_angles_3(make_domain_3(p)).smallest_dihedral_deg; };
   CHECK(smallest(simplify_within(plc, 1e-4 * bounding_diagonal(plc), 1e-6)) > smallest(plc) / 4);
+}
+
+TEST_CASE("A corner may become narrow for the sake of strips that are gone", "[simplify][models]") {
+  const auto path = inputs_folder().parent_path() / "cad" / "mendel90_z_motor_bracket_lhs_bb32.stl";
+  if (!std::filesystem::is_regular_file(path)) PGDR_SKIP("no folder of printed parts");
+  const Plc plc = read_plc(path);
+  const auto narrow = [&](double tolerance) { return narrowness(make_domain_3(simplify_within(plc, tolerance * bounding_diagonal(plc), 1e-6))); };
+  const Narrowness without = narrow(1e-6), with = narrow(1e-3);
+  CHECK(with.halvings < 10);
+  CHECK(with.tetrahedra() < without.tetrahedra() / 4);
 }
 
 TEST_CASE("The distance of two surfaces is measured both ways", "[simplify]") {

@@ -33,8 +33,9 @@ struct Simplification_within {
 /// Where the tolerance is no more than `coplanar_tolerance` of the diagonal, what is fused anyway is all that is made plane.
 /// \param tolerance a length; 0 or less: nothing is changed
 /// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the result
-/// The result is valid, its distance from `plc` was measured (`surface_distance`), and it has no narrower corners than if only noise was taken
-/// away; where the tolerance does not lead to that, a smaller one is taken, and at last `plc` itself is returned.
+/// The result is valid, its distance from `plc` was measured (`surface_distance`), and it is no narrower (`Narrowness`) than if only noise was
+/// taken away. Of what the tolerance leads to, with and without vertices taken away, it is the less narrow one. Where that is nothing of the kind half the
+/// tolerance is tried, a tenth and a twentieth, and so on, so that a tolerance does no worse than a tenth of it; at last `plc` itself is returned.
 /// \return a PLC whose facets `make_domain_3` fuses again
 Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate = false, Simplification_within* done = nullptr);
 
