@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <set>
 #include <utility>
@@ -291,13 +292,13 @@ double bounding_diagonal(const Plc& plc) {
   return unit_of(plc) * length(Vec_3{box.xmax(), box.ymax(), box.zmax()} - Vec_3{box.xmin(), box.ymin(), box.zmin()});
 }
 
-Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
+Plc simplify(const Plc& plc, double tolerance, Simplification* done, std::optional<int> most_rounds) {
   using namespace simplify_detail;
   Simplification ignored;
   Simplification& report = done ? *done : ignored;
   report = {};
   if (!(tolerance > 0) || !domain_detail::unusable_input(plc).empty()) return plc;
-  if (exponent_for(plc) != 0) return simplify(normalized(plc), tolerance, done);
+  if (exponent_for(plc) != 0) return simplify(normalized(plc), tolerance, done, most_rounds);
   tolerance /= unit_of(plc);
 
   std::vector<Vec_3> points;
@@ -333,7 +334,7 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
   // A strip that is closed at one of its ends only is worse than one that is open, so what leaves a triangle low is undone: done again
   // without that step, and after a while without all that touches the triangle.
   // After 16, spheres full of needles would keep nearly all of them; 41 is the most that 30 of these take.
-  constexpr int most_rounds = 64;
+  constexpr int patient_rounds = 64;
   // Of the tolerance: how low. With 1, bundles of needles stay since a step in them leaves something a little too low, and have no end
   // (table in docs/robustness.md).
   constexpr double undone_below = 0.25;
@@ -347,10 +348,14 @@ Plc simplify(const Plc& plc, double tolerance, Simplification* done) {
       if (!t.alive || t.step == 0 || complex.height(t.corners) > undone_below * tolerance) continue;
       is_complete = false;
       fixed.steps.insert(simplifier.steps()[t.step - 1]);
-      if (round > most_rounds)
+      if (round > patient_rounds)
         for (const Index v : t.corners) fixed.neighborhoods[v] = true;
     }
     if (is_complete) break;
+    if (most_rounds && round >= *most_rounds) {
+      report = {};
+      return plc;
+    }
     complex = input;
   }
   report.largest_change *= unit_of(plc);

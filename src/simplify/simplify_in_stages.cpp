@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,19 +40,19 @@ Stage Simplification_stages::make_plane(const Plc& plc, const Stage* noise_only)
   return stage;
 }
 
-bool Simplification_stages::take_away(Stage& stage) const {
-  if (!take_away_once(stage)) return false;
+bool Simplification_stages::take_away(Stage& stage, std::optional<int> most_rounds) const {
+  if (!take_away_once(stage, most_rounds)) return false;
   if (passes_.empty()) return true;
   planarize_within(stage, passes_.back());
-  take_away_once(stage);  // where two planes became one, what was between them is left as edges a thousandth as long
+  take_away_once(stage, most_rounds);  // where two planes became one, what was between them is left as edges a thousandth as long
   return true;
 }
 
 void Simplification_stages::finish(Stage& stage) const { planarize_within(stage, coplanar_tolerance_); }
 
-bool Simplification_stages::take_away_once(Stage& stage) const {
+bool Simplification_stages::take_away_once(Stage& stage, std::optional<int> most_rounds) const {
   Simplification now;
-  stage.plc = simplify(stage.plc, passes_.empty() ? tolerance_ : for_simplification * tolerance_, &now);
+  stage.plc = simplify(stage.plc, passes_.empty() ? tolerance_ : for_simplification * tolerance_, &now, most_rounds);
   if (now.is_none()) return false;
   stage.domain.reset();
   auto& done = stage.done.simplification;

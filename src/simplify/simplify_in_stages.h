@@ -26,12 +26,13 @@ class Simplification_stages {
   /// \param noise_only what all of this did to the same PLC for a tolerance of noise, if that is known: where nothing was taken away then, it is the first pass of any other
   Stage make_plane(const Plc& plc, const Stage* noise_only = nullptr) const;
   /// Takes needles and short edges away, and makes plane what is nearly so after that. Whether there were any.
-  bool take_away(Stage& stage) const;
+  /// \param most_rounds as `simplify`
+  bool take_away(Stage& stage, std::optional<int> most_rounds = std::nullopt) const;
   /// Fuses what is to be fused in the end.
   void finish(Stage& stage) const;
 
  private:
-  bool take_away_once(Stage& stage) const;
+  bool take_away_once(Stage& stage, std::optional<int> most_rounds) const;
   void planarize_within(Stage& stage, double coplanar_tolerance) const;
 
   double tolerance_, coplanar_tolerance_;

@@ -52,6 +52,9 @@ double cost(const Narrowness& n, const std::optional<Narrowness>& without) {
   return n.tetrahedra() + (without ? for_new_halving * std::max(0.0, n.halvings - without->halvings) : 0);
 }
 
+/// For taking vertices away from what is enough without.
+constexpr int few_rounds = 4;
+
 /// Whether nothing needs to be taken away from what was made plane: it has no needles, and half the tetrahedra at most.
 bool is_enough(const Stage& planes, const std::optional<Narrowness>& without) {
   if (!planes.domain || !without) return false;
@@ -102,13 +105,12 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
         stages.finish(stage);
         if (auto now = valid(stage, coplanar_tolerance, triangulate)) candidates.emplace_back(std::move(stage), std::move(*now), is_all);
       };
-      bool is_all = false;
-      if (!is_enough(planes, narrow)) {
-        Stage others{planes.plc, planes.done, std::nullopt};
-        is_all = !stages.take_away(others);
-        if (is_all && planes.done.is_none()) break;
-        if (!is_all) look_at(others, true);
-      }
+      // Where planes are enough, no time is spent on what cannot be taken away without leaving needles.
+      Stage others{planes.plc, planes.done, std::nullopt};
+      const std::optional<int> most_rounds = is_enough(planes, narrow) ? std::optional(few_rounds) : std::nullopt;
+      const bool is_taken = stages.take_away(others, most_rounds), is_all = !is_taken && !most_rounds;
+      if (is_all && planes.done.is_none()) break;
+      if (is_taken) look_at(others, true);
       // Taking vertices away can leave needles, above all where strips end.
       if (candidates.empty() || candidates[0].narrow.halvings > 0) look_at(planes, is_all);
       // Less will hardly mend what is not valid as it is, and tries cost seconds.

@@ -3,6 +3,7 @@
 #define PGDR_SIMPLIFY_SIMPLIFY_H
 
 #include <cstddef>
+#include <optional>
 
 #include <pgdr/domain/default_kernel.h>
 
@@ -26,7 +27,8 @@ struct Simplification {
 /// polygons with more corners, explicit segments, and the vertices of either stay.
 /// \param tolerance a length; 0 or less: nothing is changed
 /// \return `plc` itself where nothing was to be done
-Plc simplify(const Plc& plc, double tolerance, Simplification* done = nullptr);
+/// \param most_rounds how often it may be done again without the steps that left something low; where that is not enough nothing is done
+Plc simplify(const Plc& plc, double tolerance, Simplification* done = nullptr, std::optional<int> most_rounds = std::nullopt);
 
 /// Length of the diagonal of the bounding box of the vertices.
 double bounding_diagonal(const Plc& plc);
