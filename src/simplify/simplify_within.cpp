@@ -10,7 +10,6 @@
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/domain/input_error.h>
 #include <pgdr/domain/scale.h>
-#include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/valid_domain.h>
 #include <pgdr/domain/validate_domain_3.h>
 #include <pgdr/simplify/narrowness.h>
