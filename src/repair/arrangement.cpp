@@ -2,6 +2,7 @@
 // Where triangles meet: computed exactly, then rounded.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <string>
@@ -31,11 +32,14 @@ using Point_2 = Exact::Point_2;
 using Pairs = std::vector<std::pair<Index, Index>>;
 using domain_detail::to_work_point;
 
-/// New points are rounded to multiples of 2^-bits of the size of the input. Coarser each time that rounding makes new intersections, so that
-/// what is too close to be told apart becomes one.
-constexpr int finest_bits = 40;
-constexpr int bits_per_round = 2;
-constexpr int rounds_at_finest = 4;
+/// New points are rounded to multiples of 2^-bits of the size of the input, which may make new intersections. Which way a triangle faces that is lower than some
+/// steps is what rounding has made of it, so that these go, and higher ones each time that there still are intersections.
+constexpr int grid_bits = 40;
+constexpr double steps_apart = 256;
+constexpr double higher_each_round = 4;
+constexpr int most_rounds = 12;
+/// Intersections that come back are fewer than that times those there were, or it leads nowhere.
+constexpr std::size_t most_growth = 8;
 
 /// Points on the grid, equal ones once.
 class Grid {
@@ -53,6 +57,8 @@ class Grid {
     points_[v] = to;
     return it->second = vertex_at(to, v);
   }
+
+  std::size_t moved_vertices() const { return moved_.size(); }
 
   Index add(const Point_3& p) {
     const auto& e = CGAL::exact(p);  // what it is, not how it was made
@@ -93,26 +99,32 @@ class Plane_arrangement {
     std::array<Point_2, 3> flat_corners;
     for (std::size_t i = 0; i < 3; ++i) flat_corners[i] = flat(t[i]);
     triangles_.push_back(flat_corners);
+    runs_forward_.push_back(CGAL::left_turn(flat_corners[0], flat_corners[1], flat_corners[2]));
     for (std::size_t i = 0; i < 3; ++i) add_segment(t[i], t[(i + 1) % 3]);
   }
   void add_segment(const Point_3& a, const Point_3& b) { cdt_.insert_constraint(vertex(a), vertex(b)); }
   void add_point(const Point_3& p) { vertex(p); }
 
-  /// f(corners, position of the first triangle that covers it), corners oriented as the plane.
+  /// Whether a triangle's corners run as those of faces.
+  bool runs_forward(std::size_t triangle) const { return runs_forward_[triangle]; }
+
+  /// f(corners, positions of the triangles that cover it).
   template <class F>
   void for_each_face(F f) {
-    const bool is_turned = (normal_[dropped_] < 0) != (dropped_ == 1);
+    std::vector<std::size_t> covering;
     for (auto face = cdt_.finite_faces_begin(); face != cdt_.finite_faces_end(); ++face) {
-      const Point_2 middle = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
-      const auto covers = [&](const std::array<Point_2, 3>& t) {
-        const auto s = [&](std::size_t i) { return CGAL::orientation(t[i], t[(i + 1) % 3], middle); };
-        return s(0) == s(1) && s(1) == s(2);
-      };
-      const auto first = triangles_.size() == 1 ? triangles_.begin() : std::ranges::find_if(triangles_, covers);
-      if (first == triangles_.end()) continue;
-      std::array<Point_3, 3> corners{lifted(face->vertex(0)), lifted(face->vertex(1)), lifted(face->vertex(2))};
-      if (is_turned) std::swap(corners[1], corners[2]);
-      f(corners, static_cast<std::size_t>(first - triangles_.begin()));
+      covering.clear();
+      if (triangles_.size() == 1) {
+        covering.push_back(0);
+      } else {
+        const Point_2 middle = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
+        for (std::size_t i = 0; i < triangles_.size(); ++i) {
+          const auto& t = triangles_[i];
+          const auto side = [&](std::size_t k) { return CGAL::orientation(t[k], t[(k + 1) % 3], middle); };
+          if (side(0) == side(1) && side(1) == side(2)) covering.push_back(i);
+        }
+      }
+      if (!covering.empty()) f(std::array<Point_3, 3>{lifted(face->vertex(0)), lifted(face->vertex(1)), lifted(face->vertex(2))}, covering);
     }
   }
 
@@ -142,37 +154,42 @@ class Plane_arrangement {
   Exact::Vector_3 normal_;
   int dropped_ = 0;
   std::vector<std::array<Point_2, 3>> triangles_;
+  std::vector<bool> runs_forward_;
   Cdt cdt_;
 };
 
-/// One round: all triangles of `pairs` are divided where they meet.
-Soup divided(Soup soup, const Pairs& pairs, double step, double& largest_move) {
-  Grid grid(soup.points, step);
+/// Moves the vertices of all that meets to the grid: what is computed is rounded to points of it. That may make others meet, which have to be known before
+/// anything is divided: an edge that is divided in one of its triangles only is a crack as wide as rounding is. \return all that meets then
+Pairs onto_grid(Soup& soup, Pairs pairs, Grid& grid, double& largest_move) {
+  for (std::size_t on_grid = 0;;) {
+    std::map<Index, Index> moved;
+    for (const auto& [s, t] : pairs)
+      for (const Index u : {s, t})
+        for (const Index v : soup.triangles[u].corners) moved[v] = grid.move_vertex(v, largest_move);
+    for (Triangle& t : soup.triangles)
+      for (Index& v : t.corners)
+        if (const auto it = moved.find(v); it != moved.end()) v = it->second;
+    close_flat_triangles(soup, largest_move);
+    pairs = meeting_pairs(soup);
+    if (on_grid == grid.moved_vertices()) return pairs;
+    on_grid = grid.moved_vertices();
+  }
+}
+
+/// Divides triangles where they meet. \pre `pairs` are all that meet, on the grid, and no triangle is degenerate \return the position of the first piece
+std::size_t divide(Soup& soup, const Pairs& pairs, Grid& grid) {
   std::vector<bool> is_met(soup.triangles.size(), false);
   for (const auto& [s, t] : pairs) is_met[s] = is_met[t] = true;
-  // What meets lies on the grid before anything is computed: what is computed is rounded to points of it.
-  std::map<Index, Index> moved;
-  for (Index t = 0; t < soup.triangles.size(); ++t)
-    if (is_met[t])
-      for (const Index v : soup.triangles[t].corners) moved[v] = grid.move_vertex(v, largest_move);
-  for (Triangle& t : soup.triangles)
-    for (Index& v : t.corners)
-      if (const auto it = moved.find(v); it != moved.end()) v = it->second;
 
   const auto point = [&](Index v) { return Point_3(soup.points[v].x, soup.points[v].y, soup.points[v].z); };
   const auto corners = [&](Index t) {
     const Corners& c = soup.triangles[t].corners;
     return std::array<Point_3, 3>{point(c[0]), point(c[1]), point(c[2])};
   };
-  const auto has_area = [&](Index t) {
-    const auto c = corners(t);
-    return !CGAL::collinear(c[0], c[1], c[2]);
-  };
   std::vector<std::vector<Point_3>> points(soup.triangles.size());
   std::vector<std::vector<std::pair<Point_3, Point_3>>> segments(soup.triangles.size());
   boost::disjoint_sets_with_storage<> coplanar(soup.triangles.size());
   for (const auto& [s, t] : pairs) {
-    if (!has_area(s) || !has_area(t)) continue;
     const auto a = corners(s), b = corners(t);
     const CGAL::Object common = CGAL::intersection(Exact::Triangle_3(a[0], a[1], a[2]), Exact::Triangle_3(b[0], b[1], b[2]));
     if (const auto* p = CGAL::object_cast<Point_3>(&common)) {
@@ -187,11 +204,12 @@ Soup divided(Soup soup, const Pairs& pairs, double step, double& largest_move) {
   }
   std::map<std::size_t, std::vector<Index>> planes;
   for (Index t = 0; t < soup.triangles.size(); ++t)
-    if (is_met[t] && has_area(t)) planes[coplanar.find_set(t)].push_back(t);
+    if (is_met[t]) planes[coplanar.find_set(t)].push_back(t);
 
-  Soup result;
+  std::vector<Triangle> result;
   for (Index t = 0; t < soup.triangles.size(); ++t)
-    if (!is_met[t]) result.triangles.push_back(soup.triangles[t]);
+    if (!is_met[t]) result.push_back(soup.triangles[t]);
+  const std::size_t first = result.size();
   std::vector<const std::vector<Index>*> in_order;
   for (const auto& [root, members] : planes) in_order.push_back(&members);
   std::ranges::sort(in_order, {}, [](const std::vector<Index>* m) { return m->front(); });
@@ -205,14 +223,57 @@ Soup divided(Soup soup, const Pairs& pairs, double step, double& largest_move) {
       for (const Point_3& p : points[t]) plane.add_point(p);
       for (const auto& [a, b] : segments[t]) plane.add_segment(a, b);
     }
-    plane.for_each_face([&](const std::array<Point_3, 3>& c, std::size_t i) {
-      Triangle piece = soup.triangles[list[i]];
+    plane.for_each_face([&](const std::array<Point_3, 3>& c, const std::vector<std::size_t>& covering) {
+      std::size_t which = covering.front();
+      int times = 1;
+      if (soup.is_cycle) {
+        times = 0;
+        for (const std::size_t i : covering) times += plane.runs_forward(i) ? soup.triangles[list[i]].times : -soup.triangles[list[i]].times;
+        if (times == 0) return;
+        which = *std::ranges::find_if(covering, [&](std::size_t i) { return plane.runs_forward(i) == (times > 0); });
+      }
+      Triangle piece = soup.triangles[list[which]];
       piece.corners = {grid.add(c[0]), grid.add(c[1]), grid.add(c[2])};
-      result.triangles.push_back(piece);
+      if (!plane.runs_forward(which)) std::swap(piece.corners[1], piece.corners[2]);
+      piece.times = std::abs(times);
+      result.push_back(piece);
     });
   }
-  result.points = std::move(soup.points);
-  return result;
+  soup.triangles = std::move(result);
+  return first;
+}
+
+/// Not for several parts, whose triangles may be in one place.
+bool is_cycle(const Soup& soup) {
+  const Triangle_edges all(soup.triangles);
+  bool is_closed = std::ranges::all_of(soup.triangles, [&](const Triangle& t) { return t.part == soup.triangles[0].part; });
+  all.for_each([&](std::size_t i, std::size_t j) {
+    int forward = 0;
+    for (std::size_t k = i; k < j; ++k) forward += all.edges[k].runs_forward ? 1 : -1;
+    is_closed &= forward == 0;
+  });
+  return is_closed;
+}
+
+/// Divides triangles where they meet, until none do; `pairs` are those that meet, and those that are left.
+void divide_all(Soup& soup, Pairs& pairs, double tolerance, double& largest_move) {
+  const std::size_t most_pairs = most_growth * pairs.size();
+  double extent = 0;
+  for (const Triangle& t : soup.triangles)
+    for (const Index v : t.corners)
+      for (const double x : {soup.points[v].x, soup.points[v].y, soup.points[v].z}) extent = std::max(extent, std::abs(x));
+  const int exponent = std::ilogb(extent) + 1;
+  const double step = std::ldexp(1.0, exponent - grid_bits);
+  const double highest = std::max(tolerance, step);
+  double low = std::min(steps_apart * step, highest);
+  for (int round = 0; round < most_rounds && !pairs.empty() && pairs.size() <= most_pairs; ++round) {
+    Grid grid(soup.points, step);
+    pairs = onto_grid(soup, std::move(pairs), grid, largest_move);
+    const std::size_t first = divide(soup, pairs, grid);
+    close_flat_triangles(soup, largest_move, first, low);
+    pairs = meeting_pairs(soup);
+    low = std::min(higher_each_round * low, highest);
+  }
 }
 
 }  // namespace
@@ -234,21 +295,8 @@ Pairs meeting_pairs(const Soup& soup) {
 
 Soup arrangement(const Soup& soup, Pairs pairs, double tolerance, Repair_report& report) {
   Soup result = soup;
-  double extent = 0;
-  for (const Triangle& t : soup.triangles)
-    for (const Index v : t.corners)
-      for (const double x : {soup.points[v].x, soup.points[v].y, soup.points[v].z}) extent = std::max(extent, std::abs(x));
-  const int exponent = std::ilogb(extent) + 1;
-  int bits = finest_bits;
-  for (int round = 0; !pairs.empty(); ++round) {
-    if (round >= rounds_at_finest) bits -= bits_per_round;
-    const double step = std::ldexp(1.0, exponent - bits);
-    if (step > tolerance && bits < finest_bits) break;
-    result = divided(std::move(result), pairs, step, report.largest_move);
-    Repair_report ignored;
-    remove_degenerate(result, ignored);
-    pairs = meeting_pairs(result);
-  }
+  result.is_cycle = is_cycle(soup);
+  divide_all(result, pairs, tolerance, report.largest_move);
   if (!pairs.empty()) {
     const auto [s, t] = pairs.front();
     const Index f = result.triangles[s].facet, g = result.triangles[t].facet;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -42,6 +43,26 @@ std::vector<Input_problem> open_groups(const Soup& soup, const std::vector<Index
   return problems;
 }
 
+/// Of the surface of solids; `enclosed(surface, report)`: what a changed one encloses. What is bent meets others, sometimes at angles as small, so that there
+/// are wedges again: as long as they become fewer.
+template <class F>
+void close_all_wedges(Solids& result, double tolerance, F enclosed, Repair_report& report) {
+  for (std::size_t most = std::numeric_limits<std::size_t>::max();;) {
+    Soup surface = result.surface;
+    Repair_report now;
+    const std::size_t wedges = close_wedges(surface, tolerance, now.largest_move);
+    if (wedges == 0 || wedges >= most) return;
+    most = wedges;
+    try {
+      result = enclosed(surface, now);
+      report.inner_triangles += now.inner_triangles;
+      report.largest_move = std::max(report.largest_move, now.largest_move);
+    } catch (const Input_error&) {
+      return;  // small angles are better than intersections
+    }
+  }
+}
+
 Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_report& report) {
   Soup soup;
   for (std::size_t part = 0; part < parts.size(); ++part) add_to_soup(soup, parts[part], static_cast<Index>(part), report);
@@ -63,6 +84,10 @@ Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_r
     plc = as_plc(soup);
   } else {
     Solids result = solids(arrangement(soup, pairs, tolerance, report), soup, group, parts.size(), tolerance, report);
+    const auto enclosed = [&](const Soup& surface, Repair_report& r) {
+      return solids(arrangement(surface, meeting_pairs(surface), tolerance, r), soup, group, parts.size(), tolerance, r);
+    };
+    close_all_wedges(result, tolerance, enclosed, report);
     std::vector<Input_problem> problems = open_groups(soup, group, result.kept, holes, options, unit);
     if (problems.empty() && result.plc.facets.empty()) problems = {{Input_problem::Kind::open_surface, "the triangles enclose nothing"}};
     if (!problems.empty()) throw Input_error(std::move(problems));

@@ -38,6 +38,12 @@ std::vector<Body> bodies(const Soup& soup, const std::vector<Index>& group) {
   return result;
 }
 
+/// With no two of them fused: sheets that part by no more than rounding would be taken for one plane, and what is between them for a part of it.
+Domain_3<Default_kernel> domain_of_triangles(Plc plc) {
+  for (Index f = 0; f < plc.facets.size(); ++f) plc.facets[f].group = f;
+  return make_domain_3(plc, 0.0, true);
+}
+
 /// How thick each volume is between its facets, on average; the first volume is what is outside.
 std::vector<double> thicknesses(const Soup& arranged, const Domain_3<Default_kernel>& domain, const Volumes_3<Default_kernel>& volumes) {
   const std::size_t n = volumes.volumes().size();
@@ -106,7 +112,7 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
     return owner;
   };
 
-  const Domain_3<Default_kernel> domain = make_domain_3(as_plc(arranged), 0.0, true);
+  const Domain_3<Default_kernel> domain = domain_of_triangles(as_plc(arranged));
   const Volumes_3<Default_kernel> volumes(domain);
   std::vector<std::optional<std::size_t>> owner(volumes.volumes().size());
   owner[0] = nobody;
@@ -127,17 +133,24 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
 
   Soup kept{arranged.points, {}};
   for (Index f = 0; f < domain.facets.size(); ++f) {
-    const bool bounds = owner[volumes.beside(f, 0, true)] != owner[volumes.beside(f, 0, false)];
-    for (const Index t : domain.facets[f].input_facets)
-      if (bounds) kept.triangles.push_back(arranged.triangles[t]); else ++report.inner_triangles;
+    const auto front = owner[volumes.beside(f, 0, true)], back = owner[volumes.beside(f, 0, false)];
+    for (const Index t : domain.facets[f].input_facets) {
+      if (front == back) {
+        ++report.inner_triangles;
+        continue;
+      }
+      Triangle& triangle = kept.triangles.emplace_back(arranged.triangles[t]);
+      triangle.times = 1;
+      if (back == nobody) std::swap(triangle.corners[1], triangle.corners[2]);
+    }
   }
   std::ranges::sort(kept.triangles, {}, [](const Triangle& t) { return std::pair{t.part, t.facet}; });
-  Solids result{as_plc(kept), kept_shares(kept, soup, group)};
+  Solids result{kept, as_plc(kept), kept_shares(kept, soup, group)};
   if (parts == 1) return result;
 
   // Voids that are enclosed, and whose each volume is.
   Plc& plc = result.plc;
-  const Volumes_3<Default_kernel> left(make_domain_3(plc, 0.0, true));
+  const Volumes_3<Default_kernel> left(domain_of_triangles(plc));
   plc.nesting = Nesting::fill;
   for (std::size_t v = 1; v < left.volumes().size(); ++v) {
     const auto p = left.interior_point(v);

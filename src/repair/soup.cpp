@@ -17,19 +17,6 @@ namespace {
 
 using domain_detail::to_work_point;
 
-bool has_area(const Soup& soup, const Corners& c) {
-  if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) return false;
-  return !CGAL::collinear(to_work_point(soup.points[c[0]]), to_work_point(soup.points[c[1]]), to_work_point(soup.points[c[2]]));
-}
-
-/// The same for all triangles with the same corners, and whether it takes an odd permutation to get there.
-std::pair<Corners, bool> sorted_corners(Corners c) {
-  std::rotate(c.begin(), std::ranges::min_element(c), c.end());
-  const bool is_odd = c[1] > c[2];
-  if (is_odd) std::swap(c[1], c[2]);
-  return {c, is_odd};
-}
-
 /// By which triangles with the same corners are found.
 struct Key {
   Index part;
@@ -41,6 +28,18 @@ struct Key {
 };
 
 }  // namespace
+
+bool has_area(const Soup& soup, const Corners& c) {
+  if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) return false;
+  return !CGAL::collinear(to_work_point(soup.points[c[0]]), to_work_point(soup.points[c[1]]), to_work_point(soup.points[c[2]]));
+}
+
+std::pair<Corners, bool> sorted_corners(Corners c) {
+  std::rotate(c.begin(), std::ranges::min_element(c), c.end());
+  const bool is_odd = c[1] > c[2];
+  if (is_odd) std::swap(c[1], c[2]);
+  return {c, is_odd};
+}
 
 std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::vector<Index>& polygon) {
   if (polygon.size() == 3) return {{polygon[0], polygon[1], polygon[2]}};

@@ -24,12 +24,16 @@ struct Triangle {
   Index part = 0;   ///< of an assembly
   Index facet = 0;  ///< of the input; for messages
   int marker = 0;
+  int times = 1;    ///< how many there are of it
 };
 
 /// Triangles without any connection but equal vertices.
 struct Soup {
   std::vector<Vec_3> points;
   std::vector<Triangle> triangles;
+  /// Whether each edge is run through as often in either direction. Then triangles that face each other in one place are none: what is closed stays so without
+  /// them.
+  bool is_cycle = false;
 };
 
 /// Directed edges of triangles, and who they belong to.
@@ -52,6 +56,9 @@ struct Triangle_edges {
   std::vector<Edge> edges;  ///< ascending
 };
 
+/// The same for all triangles with the same corners, and whether it takes an odd permutation to get there.
+std::pair<Corners, bool> sorted_corners(Corners c);
+
 /// As few and as small triangles over a closed polygon as can be, oriented as it runs; it need not be plane. Empty where there are none.
 std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::vector<Index>& polygon);
 
@@ -63,6 +70,15 @@ void remove_degenerate(Soup& soup, Repair_report& report);
 
 /// Merges vertices on the rims of cracks, and divides rims where vertices of the other side lie on them, both within the tolerance.
 void close_cracks(Soup& soup, double tolerance, Repair_report& report);
+
+/// Makes triangles without area one with their longest edges, in all of whose triangles their third corners are then, and those from a position on, too, if
+/// they are lower than a limit, or two of their corners as close as that. What is closed stays so.
+/// Triangles with the same corners, whichever way they face, become one of the last part, or, of a cycle, one that counts for all of them, or none.
+void close_flat_triangles(Soup& soup, double& largest_move, std::size_t first = static_cast<std::size_t>(-1), double limit = 0);
+
+/// Makes sheets one that leave an edge together, until they part by more than the tolerance: each gets the other's vertices, and a vertex where edges of both
+/// cross. Triangles that are low themselves are left. \return how many pairs of triangles it divided; some may intersect then
+std::size_t close_wedges(Soup& soup, double tolerance, double& largest_move);
 
 /// Orients the triangles of each shell like their neighbors, and most of them as they were.
 void orient_shells(Soup& soup, Repair_report& report);
@@ -83,6 +99,7 @@ std::vector<std::pair<Index, Index>> meeting_pairs(const Soup& soup);
 /// parts, the last one's is left. `pairs`: `meeting_pairs(soup)`. Throws `Input_error` if rounding always makes new intersections.
 Soup arrangement(const Soup& soup, std::vector<std::pair<Index, Index>> pairs, double tolerance, Repair_report& report);
 
+bool has_area(const Soup& soup, const Corners& c);
 double area(const Soup& soup, const Triangle& t);
 /// Of the tetrahedron that it spans with the origin, positive where that is behind it.
 double signed_volume(const Soup& soup, const Triangle& t, const Vec_3& origin);
@@ -100,7 +117,8 @@ Plc as_plc(const Soup& soup);
 /// What `arranged` (the arrangement of `soup`) bounds: triangles with different owners on their sides, and a region for each part if there are several.
 /// Pockets thinner than the tolerance are no volumes of their own.
 struct Solids {
-  Plc plc;
+  Soup surface;
+  Plc plc;              ///< the same, and the regions
   std::vector<double> kept;  ///< which part of each group's area is in it
 };
 Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report);
