@@ -25,7 +25,8 @@ class Edge_divider {
   bool divide_edges(const std::vector<std::pair<Index_pair, Index>>& places) {
     std::vector<std::pair<Index, std::size_t>> of;  // triangles, and where
     for (std::size_t i = 0; i < places.size(); ++i)
-      for (const auto& e : std::ranges::equal_range(edges_.edges, places[i].first, {}, &Triangle_edges::Edge::ends)) of.emplace_back(e.triangle, i);
+      for (auto e = std::ranges::lower_bound(edges_.edges, places[i].first, {}, &Triangle_edges::Edge::ends); e != edges_.edges.end() && e->ends == places[i].first; ++e)
+        of.emplace_back(e->triangle, i);
     std::ranges::sort(of);
     for (std::size_t i = 0; i < of.size(); ++i)
       if (is_changed_[of[i].first] || (i > 0 && of[i].first == of[i - 1].first)) return false;
