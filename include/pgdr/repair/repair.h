@@ -43,7 +43,7 @@ struct Repair_report {
 /// self-intersections.
 ///
 /// Intersections are computed exactly, then rounded to a grid, which may bring others about, and so again until there are none; sheets that part by less than
-/// the tolerance become one. What is inside
+/// a tenth of the tolerance become one. What is inside
 /// is decided for each volume that results, by generalized winding numbers (Jacobson, Kavan, Sorkine-Hornung 2013) with respect to the
 /// triangles of one connected group, oriented consistently; groups that do not touch each other alternate between material and void.
 /// \return triangles that bound what is inside, and nothing else; `plc` itself where nothing had to be done. Seeds are kept.
