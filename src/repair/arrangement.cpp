@@ -161,18 +161,18 @@ class Plane_arrangement {
 /// Moves the vertices of all that meets to the grid: what is computed is rounded to points of it. That may make others meet, which have to be known before
 /// anything is divided: an edge that is divided in one of its triangles only is a crack as wide as rounding is. \return all that meets then
 Pairs onto_grid(Soup& soup, Pairs pairs, Grid& grid, double& largest_move) {
-  for (std::size_t on_grid = 0;;) {
+  for (;;) {
+    const std::size_t on_grid = grid.moved_vertices();
     std::map<Index, Index> moved;
     for (const auto& [s, t] : pairs)
       for (const Index u : {s, t})
         for (const Index v : soup.triangles[u].corners) moved[v] = grid.move_vertex(v, largest_move);
+    if (grid.moved_vertices() == on_grid) return pairs;
     for (Triangle& t : soup.triangles)
       for (Index& v : t.corners)
         if (const auto it = moved.find(v); it != moved.end()) v = it->second;
     close_flat_triangles(soup, largest_move);
     pairs = meeting_pairs(soup);
-    if (on_grid == grid.moved_vertices()) return pairs;
-    on_grid = grid.moved_vertices();
   }
 }
 
@@ -255,27 +255,6 @@ bool is_cycle(const Soup& soup) {
   return is_closed;
 }
 
-/// Divides triangles where they meet, until none do; `pairs` are those that meet, and those that are left.
-void divide_all(Soup& soup, Pairs& pairs, double tolerance, double& largest_move) {
-  const std::size_t most_pairs = most_growth * pairs.size();
-  double extent = 0;
-  for (const Triangle& t : soup.triangles)
-    for (const Index v : t.corners)
-      for (const double x : {soup.points[v].x, soup.points[v].y, soup.points[v].z}) extent = std::max(extent, std::abs(x));
-  const int exponent = std::ilogb(extent) + 1;
-  const double step = std::ldexp(1.0, exponent - grid_bits);
-  const double highest = std::max(tolerance, step);
-  double low = std::min(steps_apart * step, highest);
-  for (int round = 0; round < most_rounds && !pairs.empty() && pairs.size() <= most_pairs; ++round) {
-    Grid grid(soup.points, step);
-    pairs = onto_grid(soup, std::move(pairs), grid, largest_move);
-    const std::size_t first = divide(soup, pairs, grid);
-    close_flat_triangles(soup, largest_move, first, low);
-    pairs = meeting_pairs(soup);
-    low = std::min(higher_each_round * low, highest);
-  }
-}
-
 }  // namespace
 
 Pairs meeting_pairs(const Soup& soup) {
@@ -296,7 +275,23 @@ Pairs meeting_pairs(const Soup& soup) {
 Soup arrangement(const Soup& soup, Pairs pairs, double tolerance, Repair_report& report) {
   Soup result = soup;
   result.is_cycle = is_cycle(soup);
-  divide_all(result, pairs, tolerance, report.largest_move);
+  const std::size_t most_pairs = most_growth * pairs.size();
+  double extent = 0;
+  for (const Triangle& t : result.triangles)
+    for (const Index v : t.corners)
+      for (const double x : {result.points[v].x, result.points[v].y, result.points[v].z}) extent = std::max(extent, std::abs(x));
+  const int exponent = std::ilogb(extent) + 1;
+  const double step = std::ldexp(1.0, exponent - grid_bits);
+  const double highest = std::max(tolerance, step);
+  double low = std::min(steps_apart * step, highest);
+  for (int round = 0; round < most_rounds && !pairs.empty() && pairs.size() <= most_pairs; ++round) {
+    Grid grid(result.points, step);
+    pairs = onto_grid(result, std::move(pairs), grid, report.largest_move);
+    const std::size_t first = divide(result, pairs, grid);
+    close_flat_triangles(result, report.largest_move, first, low);
+    pairs = meeting_pairs(result);
+    low = std::min(higher_each_round * low, highest);
+  }
   if (!pairs.empty()) {
     const auto [s, t] = pairs.front();
     const Index f = result.triangles[s].facet, g = result.triangles[t].facet;

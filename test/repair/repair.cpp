@@ -61,6 +61,7 @@ double surface_volume(const Plc& plc) {
   }
   return sum;
 }
+
 Plc repaired(const Plc& plc, Repair_report* report = nullptr) { return repair(plc, {tolerance, largest_hole}, report); }
 
 /// Of a prism over a regular polygon.
@@ -68,12 +69,14 @@ double cylinder_volume(int n, double radius, double height) {
   return 0.5 * n * radius * radius * std::sin(2 * std::numbers::pi / n) * height;
 }
 
-/// Over a polygon of the plane, its sides and caps triangles.
-Plc prism(const std::vector<std::array<double, 2>>& base, double lower, double upper) {
+/// A prism over a regular polygon around a vertical axis, its sides and caps triangles.
+Plc bolt(Index n, double radius, double lower, double upper, double x, double y) {
   Plc plc;
-  const Index n = static_cast<Index>(base.size());
   for (const double z : {lower, upper})
-    for (const auto& [x, y] : base) plc.vertices.emplace_back(x, y, z);
+    for (Index i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      plc.vertices.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle), z);
+    }
   Facet bottom, top;
   bottom.polygons.resize(1);
   top.polygons.resize(1);
@@ -86,16 +89,6 @@ Plc prism(const std::vector<std::array<double, 2>>& base, double lower, double u
   plc.facets.push_back(bottom);
   plc.facets.push_back(top);
   return as_surface(triangulated(plc));
-}
-
-/// A prism over a regular polygon around a vertical axis.
-Plc bolt(Index n, double radius, double lower, double upper, double x, double y) {
-  std::vector<std::array<double, 2>> base;
-  for (Index i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * i / n;
-    base.push_back({x + radius * std::cos(angle), y + radius * std::sin(angle)});
-  }
-  return prism(base, lower, upper);
 }
 
 /// One triangle becomes two, at a vertex on its first edge that the neighbor does not have, off it by `gap`.
@@ -184,7 +177,6 @@ TEST_CASE("what intersects since it was rounded keeps its volume") {
       p = Default_kernel::Point_3(step * std::nearbyint(turned.x / step), step * std::nearbyint(turned.y / step), step * std::nearbyint(turned.z / step));
     }
     const double expected = surface_volume(plc);
-    INFO("seed " << seed);
     Repair_report report;
     const Plc good = repaired(plc, &report);
     intersecting += report.intersecting_pairs > 0;
