@@ -35,7 +35,7 @@ struct Exempt {
     for (auto c = tr.finite_cells_begin(); c != tr.finite_cells_end(); ++c) {
       if (c->subdomain() == 0) continue;
       const pgdr::Tetrahedron_ball ball = pgdr::tetrahedron_ball(pgdr::tetrahedron_points(Tr::Cell_handle(c)));
-      squared_ratio = std::max(squared_ratio, ball.squared_radius / ball.squared_shortest);
+      squared_ratio = std::max(squared_ratio, ball.squared_ratio());
       if (!criteria.is_over_ratio(ball)) continue;
       ++count;
       CHECK(c->state() == pgdr::Cell_state::exempt);

@@ -59,11 +59,11 @@ TEST_CASE("A pinched tetrahedron has half of the wanted angle at most, and a sho
 }
 
 TEST_CASE("A tetrahedron is pinched by a short edge whose ends do not move, and by no other", "[slivers]") {
-  // An edge seen from the opposite one under atan(edge).
-  const auto is_pinched = [](double edge, int one_end, int other_end) {
+  // An edge seen from the opposite one under atan(edge), unless that is turned towards it.
+  const auto is_pinched = [](double edge, int one_end, int other_end, const Tr::Point& last = {0, 1, 1}) {
     Tr tr;
     std::vector<Tr::Vertex_handle> v;
-    for (const Tr::Point& p : {Tr::Point(0, 0, 0), Tr::Point(edge, 0, 0), Tr::Point(0, 1, 0), Tr::Point(0, 1, 1)}) v.push_back(tr.insert(p));
+    for (const Tr::Point& p : {Tr::Point(0, 0, 0), Tr::Point(edge, 0, 0), Tr::Point(0, 1, 0), last}) v.push_back(tr.insert(p));
     v[0]->set_feature(one_end, 0);
     v[1]->set_feature(other_end, 0);
     std::vector<Sliver> found;
@@ -76,4 +76,6 @@ TEST_CASE("A tetrahedron is pinched by a short edge whose ends do not move, and 
   CHECK_FALSE(is_pinched(0.5 * half, 3, 2));
   CHECK_FALSE(is_pinched(0.5 * half, 1, 3));
   CHECK_FALSE(is_pinched(1e-7, 1, 2));  // flat as no input is
+  CHECK(is_pinched(0.5 * half, 1, 2, {1, 1, 1}));
+  CHECK_FALSE(is_pinched(0.5 * half, 1, 2, {1, 1, 0.01}));  // flat for another reason
 }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -227,6 +228,14 @@ TEST_CASE("Next to small angles most slivers go, too", "[slivers]") {
   CHECK(mesh.statistics().slivers.left < 25);  // 39 where no tetrahedron might take an exempt one's place
   // One between cocircular vertices of a facet, as flat as rounding is.
   CHECK(pgdr::mesh_quality(pgdr::indexed_mesh_3(mesh)).min_dihedral_deg > 1);
+}
+
+TEST_CASE("Severe slivers go, too, when others have spent what all may cost", "[slivers]") {
+  for (const auto& [name, degrees] : {std::pair{"pair_13", 3.0}, std::pair{"pair_90", 2.5}}) {
+    CAPTURE(name);
+    const Mesh mesh = refined(pgdr::read_plc(data_file(std::string("../test/corpus/") + name + ".poly")), any_size);
+    CHECK(pgdr::mesh_quality(pgdr::indexed_mesh_3(mesh)).min_dihedral_deg > degrees);  // 2.28 and 1.53 with one budget for all
+  }
 }
 
 TEST_CASE("The limit of vertices holds while slivers are removed", "[slivers]") {

@@ -47,6 +47,8 @@ class Acute_neighborhood_3 {
   /// Whether two features meet at less than `limit` degrees in this domain vertex.
   bool is_acute_vertex(Index v) const { return is_acute_vertex_[v]; }
 
+  double smallest_dihedral_deg() const { return smallest_dihedral_deg_; }
+
   const Facet_wedges_3& wedges() const { return wedges_; }
   const Segment_wedges_3& segment_wedges() const { return segment_wedges_; }
   const Gaps_3& gaps() const { return gaps_; }
@@ -103,6 +105,7 @@ class Acute_neighborhood_3 {
   Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes, const domain_detail::Facet_edges& edges)
       : wedges_(domain, edges), segment_wedges_(domain, edges), gaps_(domain), sizes_(std::move(sizes)) {
     const Small_angles angles = small_angles_3(domain);
+    smallest_dihedral_deg_ = angles.smallest_dihedral_deg;
     is_acute_vertex_.resize(domain.vertices.size(), false);
     list_small_angles(domain, angles);
     const auto point = [&](Index v) {
@@ -191,6 +194,7 @@ class Acute_neighborhood_3 {
   Size_bounds sizes_;
   std::optional<Protected_balls_3> balls_;
   std::optional<Narrow_angles_3> narrow_;
+  double smallest_dihedral_deg_ = 180;
   std::vector<bool> is_acute_vertex_;
   std::vector<bool> ends_wedge_;                           ///< vertices of segments with small dihedral angles
   std::vector<std::vector<Place>> at_segment_, at_facet_;  ///< the small angles there, ascending

@@ -21,6 +21,8 @@ struct Tetrahedron_ball {
   double squared_radius = 0;    ///< of the circumball
   double squared_shortest = 0;  ///< length of the shortest edge, squared
   double volume = 0;
+
+  double squared_ratio() const { return squared_radius / squared_shortest; }  ///< radius over shortest edge, squared
 };
 
 using Tetrahedron_points = std::array<Vec_3, 4>;

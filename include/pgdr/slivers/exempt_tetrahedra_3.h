@@ -39,8 +39,7 @@ class Exempt_tetrahedra_3 {
       edges_.push_back({corners[i], corners[j]});
     const Tetrahedron_frame frame(corners);
     if (frame.is_flat()) return;  // one with its ratio will not do
-    const Tetrahedron_ball ball = frame.ball();
-    squared_ratio_ = std::max(squared_ratio_, ball.squared_radius / ball.squared_shortest);
+    squared_ratio_ = std::max(squared_ratio_, frame.ball().squared_ratio());
   }
 
   std::size_t count() const { return count_; }

@@ -160,10 +160,7 @@ class Feature_places_3 {
   static double squared_ratio_of_poor(const Cavity_3<Tr>& cavity) {
     double largest = 0;
     for (const Cell_handle d : cavity.cells())
-      if (d->state() == Cell_state::exempt) {
-        const Tetrahedron_ball ball = tetrahedron_ball(tetrahedron_points(d));
-        largest = std::max(largest, ball.squared_radius / ball.squared_shortest);
-      }
+      if (d->state() == Cell_state::exempt) largest = std::max(largest, tetrahedron_ball(tetrahedron_points(d)).squared_ratio());
     return largest;
   }
 

@@ -3,7 +3,9 @@
 #define PGDR_SLIVERS_FEATURE_SLIVER_REMOVER_3_H
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -14,6 +16,7 @@
 #include <pgdr/acute/acute_neighborhood_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/domain/feature_id.h>
+#include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/parallel/parallel_for.h>
 #include <pgdr/slivers/divide_slivers_3.h>
@@ -30,10 +33,11 @@ namespace pgdr {
 /// 2. else where it makes nothing on the boundary alone that has as small an angle, and few poor tetrahedra, which are refined;
 /// 3. else where the refinement would.
 /// Next to tetrahedra that were given up, 2. and 3. only as long as there is a budget: where input angles are small, one point asks for more, up to
-/// hundreds.
+/// hundreds. When that is spent, slivers below a quarter of the wanted angle have another one, since most are found later, those below a quarter of that a
+/// third one, and so on.
 ///
-/// In the wedge between facets that meet at a small dihedral angle tetrahedra are as flat as it is, and stay. Those that are flatter than any
-/// wedge do not, and have a budget of their own: there are few, and no solver can use a mesh with one.
+/// In the wedge between facets that meet at a small dihedral angle tetrahedra are as flat as it is, and stay. Those that are much flatter than any
+/// wedge do not. Those that are as flat as rounding is have a budget of their own: there are few, and no solver can use a mesh with one.
 /// \pre no other thread works
 template <class Tr, class Criteria, class Engine>
 class Feature_sliver_remover_3 {
@@ -49,7 +53,15 @@ class Feature_sliver_remover_3 {
   Feature_sliver_remover_3(Tr& tr, const Complex& complex, const Tetrahedron_judge<Criteria>& judge, double wanted, Engine& engine,
                            std::size_t most_vertices, const std::atomic<bool>* cancel)
       : tr_(tr), complex_(complex), judge_(judge), wanted_(wanted), engine_(engine), places_(tr, complex, judge, wanted, engine), worker_(engine.make_worker()),
-        budget_(static_cast<std::size_t>(budget_share * static_cast<double>(tr.number_of_vertices()))), most_vertices_(most_vertices), cancel_(cancel) {}
+        as_wedge_(cosine_of_degrees(engine.acute().smallest_dihedral_deg() / 4)), most_vertices_(most_vertices), cancel_(cancel) {
+    const auto budget = static_cast<std::size_t>(budget_share * static_cast<double>(tr.number_of_vertices()));
+    double cosine = wanted;
+    for (Budget& b : budgets_) {
+      b = {cosine, budget};
+      cosine = cosine_of_half(cosine_of_half(cosine));
+    }
+    budget_for_flat_ = budget + more_for_flat;
+  }
 
   /// Tries to remove slivers; returns how many points were inserted. All by 1. and 2. first, which cost less. Places for these are looked for in the mesh
   /// as it is in the beginning.
@@ -68,12 +80,24 @@ class Feature_sliver_remover_3 {
   // degrees are then, of a04 152, 180, 180, 197, of a07 37, 25, 12, 0, of a11 4, 0, 0, 0, of a12 62, 56, 48, 49.
   static constexpr double budget_share = 0.015;
   static constexpr std::size_t more_for_flat = 64;  ///< small meshes have flat tetrahedra, too
+  /// Where something beside a severe sliver is so many times as poor, a split would ask for that to be refined, too.
+  static constexpr double much_poorer = 2;
+
+  /// For slivers below the angle with this cosine.
+  struct Budget {
+    double cosine = 0;
+    std::size_t left = 0;
+  };
+  /// Of budgets, each for slivers below a quarter of the angle of the one before.
+  static constexpr std::size_t levels = 4;
+
+  static double cosine_of_half(double cosine) { return std::sqrt((1 + cosine) / 2); }
 
   /// Which are those between facets that meet at a small angle: as long as they live, their corners are what they are.
   std::vector<std::uint8_t> all_that_stay(const std::vector<Sliver>& slivers) const {
     std::vector<std::uint8_t> stays(slivers.size());
     parallel_for_chunks(slivers.size(), default_grain, [&](std::size_t k, std::size_t end) {
-      for (; k < end; ++k) stays[k] = !slivers[k].is_flat() && is_in_wedge(slivers[k].cell);
+      for (; k < end; ++k) stays[k] = !slivers[k].is_flat() && slivers[k].cosine < as_wedge_ && is_in_wedge(slivers[k].cell);
     });
     return stays;
   }
@@ -106,27 +130,37 @@ class Feature_sliver_remover_3 {
   }
 
   std::optional<std::size_t> put_point_at(const Sliver& s, const Choice& choice) {
-    return within_budget(s, !choice.is_strict, [&] {
+    return within_budget(choice.is_strict ? nullptr : budget_for(s, false), [&] {
       const auto is_good = [&](const Cavity_3<Tr>& cavity, const Vec_3& at) { return places_.is_good(s, choice.is_strict, cavity, at); };
       return engine_.put_on_piece(*worker_, choice.place->piece, choice.place->is_subsegment, choice.place->at, is_good);
     });
   }
 
   std::size_t split(const Sliver& s) {
-    return within_budget(s, true, [&] {
+    return within_budget(budget_for(s, true), [&] {
       const auto cause = sliver_cause(complex_, s.cell);
       return cause ? engine_.split_piece(*worker_, cause->piece, cause->is_subsegment, cause->guard, cancel_).inserted : 0;
     }).value_or(0);
   }
 
-  /// What `insert` inserts; none if the budget is spent and it counts.
-  std::optional<std::size_t> within_budget(const Sliver& s, bool may_count, const auto& insert) {
-    const bool flat = s.is_flat();
-    const bool counts = may_count && (flat || is_next_to_poor(s.cell));
-    std::size_t& spent = flat ? spent_on_flat_ : spent_;
-    if (counts && spent >= (flat ? budget_ + more_for_flat : budget_)) return std::nullopt;
+  /// What a point for it counts against; null if it does not.
+  std::size_t* budget_for(const Sliver& s, bool is_split) {
+    if (s.is_flat()) return &budget_for_flat_;
+    const double poorest = squared_ratio_of_poor_around(s.cell);
+    if (poorest == 0) return nullptr;
+    const bool is_plain = is_split && poorest > much_poorer * much_poorer * squared_ratio(s.cell);
+    const auto may_use = [&](const Budget& b) { return b.left > 0 && (is_plain ? &b == &budgets_[0] : s.cosine > b.cosine); };
+    const auto found = std::ranges::find_if(budgets_, may_use);
+    return found != budgets_.end() ? &found->left : &budgets_[0].left;
+  }
+
+  static double squared_ratio(Cell_handle c) { return tetrahedron_ball(tetrahedron_points(c)).squared_ratio(); }
+
+  /// What `insert` inserts; none if the budget is spent.
+  static std::optional<std::size_t> within_budget(std::size_t* budget, const auto& insert) {
+    if (budget && *budget == 0) return std::nullopt;
     const std::size_t inserted = insert();
-    if (counts) spent += inserted;
+    if (budget) *budget -= std::min(*budget, inserted);
     return inserted;
   }
 
@@ -144,12 +178,16 @@ class Feature_sliver_remover_3 {
     return false;
   }
 
-  bool is_next_to_poor(Cell_handle c) {
-    return std::ranges::any_of(std::array{0, 1, 2, 3}, [&](int i) {
+  /// The largest one of those that were given up, or will be refined; 0 if there are none.
+  double squared_ratio_of_poor_around(Cell_handle c) {
+    double largest = 0;
+    for (int i = 0; i < 4; ++i) {
       around_.clear();
       tr_.tds().incident_cells(c->vertex(i), std::back_inserter(around_));
-      return std::ranges::any_of(around_, [](Cell_handle d) { return d->is_poor(); });
-    });
+      for (const Cell_handle d : around_)
+        if (d->is_poor()) largest = std::max(largest, squared_ratio(d));
+    }
+    return largest;
   }
 
   Tr& tr_;
@@ -159,7 +197,9 @@ class Feature_sliver_remover_3 {
   Engine& engine_;
   Places places_;  ///< everywhere
   std::unique_ptr<typename Engine::Worker> worker_;
-  std::size_t budget_, spent_ = 0, spent_on_flat_ = 0;
+  double as_wedge_;  ///< the cosine of a quarter of the smallest dihedral angle: no wedge makes what is flatter
+  std::array<Budget, levels> budgets_;
+  std::size_t budget_for_flat_;
   std::size_t most_vertices_;
   const std::atomic<bool>* cancel_;
   std::vector<Cell_handle> around_;

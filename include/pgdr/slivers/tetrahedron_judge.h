@@ -38,7 +38,7 @@ class Tetrahedron_judge {
     const Tetrahedron_ball ball = frame.ball();
     if (!refuses(ball, subdomain)) return cosine;
     if (ball.squared_shortest < squared_min_edge_ || criteria_->is_over_size(ball, subdomain)) return refused;
-    squared_ratio = ball.squared_radius / ball.squared_shortest;
+    squared_ratio = ball.squared_ratio();
     return cosine;
   }
 
