@@ -146,14 +146,13 @@ class Mesher_3 {
     const auto notify = [this](std::size_t slivers) {
       if (parameters_.progress) parameters_.progress({"removing slivers", mesh_.triangulation().number_of_vertices(), slivers});
     };
-    mesh_.statistics().slivers =
-        Sliver_removal_3<Tr, Criteria, Engine>(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_,
-                                               cosine_of_degrees(parameters_.min_dihedral), engine, parameters_.vertex_limit(), parameters_.cancel)
-            .run(notify);
+    Sliver_removal_3<Tr, Criteria, Engine> removal(mesh_.triangulation(), mesh_.complex(), criteria, min_edge_length_, cosine_of_degrees(parameters_.min_dihedral),
+                                                   engine, parameters_.vertex_limit(), parameters_.cancel);
+    mesh_.statistics().slivers = removal.run(notify);
     const std::size_t left = mesh_.statistics().slivers.left;
     if (left > 0 && parameters_.cancel && parameters_.cancel->load(std::memory_order_relaxed))
       reason_ = reason_of(watch_.reached());
-    else if (left > 0 && mesh_.triangulation().number_of_vertices() >= parameters_.vertex_limit())
+    else if (left > 0 && removal.is_limited())
       reason_ = Stop_reason::vertex_budget;
     if (limited_ > 0) limited_ = count_limited();
   }

@@ -170,11 +170,11 @@ class Feature_refiner_3 {
     return split_subsegment_at(slot, split_points_.of_subsegment(slot), reason, guard, always);
   }
 
-  /// Puts a point on a piece at m where that deletes no piece but those that it replaces, and `is_good(cavity, at)`. What it
-  /// encroaches stays so.
+  /// Puts a point on a piece at m where that deletes no piece but those that it replaces, or, if it `may_tear`, where it encroaches none in a protected ball,
+  /// and `is_good(cavity, at)`. What it encroaches stays so.
   template <class Good>
-  bool put_on_piece(std::uint32_t slot, bool is_subsegment, const Vec_3& m, const Good& is_good) {
-    const Split_outcome outcome = split_flat(slot, is_subsegment, m, is_good);
+  bool put_on_piece(std::uint32_t slot, bool is_subsegment, const Vec_3& m, bool may_tear, const Good& is_good) {
+    const Split_outcome outcome = split_flat(slot, is_subsegment, m, may_tear, is_good);
     close(most_images);
     return outcome == Split_outcome::inserted;
   }
@@ -182,9 +182,9 @@ class Feature_refiner_3 {
   /// Looks at a point instead: changes nothing, and calls `look(cavity, at)` where `put_on_piece` asks whether it is good. False if that cannot be
   /// told within the territory.
   template <class Look>
-  bool look_at_piece(std::uint32_t slot, bool is_subsegment, const Vec_3& m, const Look& look) {
+  bool look_at_piece(std::uint32_t slot, bool is_subsegment, const Vec_3& m, bool may_tear, const Look& look) {
     is_looking_ = true;
-    const Split_outcome outcome = split_flat(slot, is_subsegment, m, [&](const Cavity_3<Tr>& cavity, const Vec_3& at) { return look(cavity, at), false; });
+    const Split_outcome outcome = split_flat(slot, is_subsegment, m, may_tear, [&](const Cavity_3<Tr>& cavity, const Vec_3& at) { return look(cavity, at), false; });
     is_looking_ = false;
     return outcome != Split_outcome::elsewhere;
   }
@@ -292,8 +292,11 @@ class Feature_refiner_3 {
   static constexpr std::size_t most_images = 10000;  ///< and pieces that they delete, of one point
 
   template <class Good>
-  Split_outcome split_flat(std::uint32_t slot, bool is_subsegment, const Vec_3& m, const Good& is_good) {
-    const auto accept = [&](std::uint32_t split, const Vec_3& at) { return !tears_others(split) && is_good(std::as_const(cavity_), at); };
+  Split_outcome split_flat(std::uint32_t slot, bool is_subsegment, const Vec_3& m, bool may_tear, const Good& is_good) {
+    const auto accept = [&](std::uint32_t split, const Vec_3& at) {
+      const bool is_allowed = !tears_others(split) || (may_tear && !encroaches_protected(complex_, features_, &acute_, Point(at.x, at.y, at.z)));
+      return is_allowed && is_good(std::as_const(cavity_), at);
+    };
     return is_subsegment ? split_subsegment_at(slot, m, Split_reason::flat, {}, accept) : split_subfacet_at(slot, m, Split_reason::flat, {}, accept);
   }
 

@@ -255,14 +255,14 @@ class Delaunay_leaf_refiner_3 {
   /// Puts a point on a piece of a feature, as `Feature_refiner_3::put_on_piece`, and refines what is missing or poor after that. Returns how
   /// many points were inserted. \pre as `split_piece`
   template <class Good>
-  std::size_t put_on_piece(Worker& w, const Piece_id& piece, bool is_subsegment, const Vec_3& at, const Good& is_good) {
+  std::size_t put_on_piece(Worker& w, const Piece_id& piece, bool is_subsegment, const Vec_3& at, bool may_tear, const Good& is_good) {
     if (is_subsegment ? !complex_.is_live_subsegment(piece) : !complex_.is_live_subfacet(piece)) return 0;
     Worklist list;
     const Leaf_task task;
     bool is_put;
     {
       const Session s(tr_, w, task, list);
-      is_put = w.features.put_on_piece(piece.slot, is_subsegment, at, is_good);
+      is_put = w.features.put_on_piece(piece.slot, is_subsegment, at, may_tear, is_good);
     }
     return is_put ? 1 + drain(w, task, list).inserted : 0;
   }
@@ -270,13 +270,13 @@ class Delaunay_leaf_refiner_3 {
   /// Looks at a point on a piece of a feature within a territory, as `Feature_refiner_3::look_at_piece`. \pre nothing is missing, and nobody
   /// changes the mesh
   template <class Look>
-  bool look_at_piece(Worker& w, const Territory_id& territory, const Piece_id& piece, bool is_subsegment, const Vec_3& at, const Look& look) {
+  bool look_at_piece(Worker& w, const Territory_id& territory, const Piece_id& piece, bool is_subsegment, const Vec_3& at, bool may_tear, const Look& look) {
     Worklist list;
     Leaf_task task;
     task.territory = territory;
     task.region = territory.region;
     const Session s(tr_, w, task, list);
-    return w.features.look_at_piece(piece.slot, is_subsegment, at, look);
+    return w.features.look_at_piece(piece.slot, is_subsegment, at, may_tear, look);
   }
 
   /// Splits one piece of a feature, as far as the guard allows, and refines what is missing or poor after that. \pre no other thread

@@ -15,6 +15,27 @@
 
 namespace pgdr {
 
+/// Whether a small angle of the input makes the shortest edge of a tetrahedron as short as it is (docs/theory.md, section 11, case 1).
+template <class Cell_handle>
+bool is_explained_by_edge(const Acute_neighborhood_3& acute, Cell_handle c) {
+  const Tetrahedron_points corners = tetrahedron_points(c);
+  const auto [i, j] = shortest_edge(corners);
+  return acute.explains(feature_of(c->vertex(static_cast<int>(i))), corners[i], feature_of(c->vertex(static_cast<int>(j))), corners[j]);
+}
+
+/// Whether a small angle of the input is within reach of a tetrahedron (the same, case 2).
+inline bool is_explained_by_place(const Acute_neighborhood_3& acute, const Tetrahedron_points& corners) {
+  constexpr double reach = 4;  // circumradii
+  const double distance = reach * std::sqrt(tetrahedron_ball(corners).squared_radius);
+  return std::ranges::any_of(corners, [&](const Vec_3& p) { return acute.contains(p, distance); });
+}
+
+/// Either of them.
+template <class Cell_handle>
+bool is_explained(const Acute_neighborhood_3& acute, Cell_handle c) {
+  return is_explained_by_edge(acute, c) || is_explained_by_place(acute, tetrahedron_points(c));
+}
+
 /// The exempt tetrahedra that a move or an insertion would take away, and whether others may take their places (docs/theory.md, section 12).
 template <class Tr>
 class Exempt_tetrahedra_3 {
@@ -34,9 +55,10 @@ class Exempt_tetrahedra_3 {
     if (!acute_) return;
     ++count_;
     const Tetrahedron_points corners = tetrahedron_points(c);
-    const auto [i, j] = shortest_edge(corners);
-    if (acute_->explains(feature_of(c->vertex(static_cast<int>(i))), corners[i], feature_of(c->vertex(static_cast<int>(j))), corners[j]))
+    if (is_explained_by_edge(*acute_, c)) {
+      const auto [i, j] = shortest_edge(corners);
       edges_.push_back({corners[i], corners[j]});
+    }
     const Tetrahedron_frame frame(corners);
     if (frame.is_flat()) return;  // one with its ratio will not do
     squared_ratio_ = std::max(squared_ratio_, frame.ball().squared_ratio());
@@ -50,14 +72,11 @@ class Exempt_tetrahedra_3 {
   /// Whether small angles explain one that would be made: one is within reach, or it has the shortest edge of one that is explained by
   /// its edge. Takes as long as a hundred tetrahedra to be measured.
   bool explain(const Tetrahedron_points& corners) const {
-    constexpr double reach = 4;  // circumradii
     const auto [i, j] = shortest_edge(corners);
     const auto is_same = [&, i = i, j = j](const std::array<Vec_3, 2>& e) {
       return (e[0] == corners[i] && e[1] == corners[j]) || (e[1] == corners[i] && e[0] == corners[j]);
     };
-    if (std::ranges::any_of(edges_, is_same)) return true;
-    const double distance = reach * std::sqrt(tetrahedron_ball(corners).squared_radius);
-    return std::ranges::any_of(corners, [&](const Vec_3& p) { return acute_->contains(p, distance); });
+    return std::ranges::any_of(edges_, is_same) || is_explained_by_place(*acute_, corners);
   }
 
  private:

@@ -15,6 +15,7 @@
 #include <pgdr/conforming/split_points_3.h>
 #include <pgdr/mesh/cavity_3.h>
 #include <pgdr/mesh/territory_3.h>
+#include <pgdr/slivers/exempt_tetrahedra_3.h>
 #include <pgdr/slivers/sliver_3.h>
 #include <pgdr/slivers/tetrahedron_judge.h>
 
@@ -44,6 +45,7 @@ class Feature_places_3 {
     std::optional<Place> place;
     bool is_strict = false;   ///< by 1.
     bool is_foreign = false;  ///< not all places are within the territory
+    bool may_tear = false;    ///< what is opposite may go missing
   };
 
   /// `wanted`: the cosine of the angle below which a tetrahedron is a sliver.
@@ -54,26 +56,10 @@ class Feature_places_3 {
 
   /// \pre the sliver is within the territory
   Choice choose(const Sliver& s) {
-    list_places(s);
-    Choice choice;
-    Value best{s.cosine, s.cosine};
-    const Place *strict = nullptr, *relaxed = nullptr;
-    for (const Place& place : places_) {
-      const auto look = [&](const Cavity_3<Tr>& cavity, const Vec_3& at) {
-        const Value value = value_of(s, cavity, at, best);
-        if (value.strict < best.strict) best.strict = value.strict, strict = &place;
-        if (value.relaxed < best.relaxed) best.relaxed = value.relaxed, relaxed = &place;
-      };
-      choice.is_foreign |= !engine_.look_at_piece(*worker_, territory_, place.piece, place.is_subsegment, place.at, look);
-      if (best.strict > wanted_) continue;
-      choice.is_foreign = false;  // no other can be better
-      break;
-    }
-    choice.is_strict = strict != nullptr;
-    if (strict || relaxed) choice.place = strict ? *strict : *relaxed;
-    return choice;
+    const Choice choice = choose(s, false);
+    const bool is_hopeless = !choice.place && !choice.is_foreign && !is_explained(engine_.acute(), s.cell);
+    return is_hopeless ? choose(s, true) : choice;
   }
-
   /// Whether a point with this cavity is as good for the sliver as was chosen.
   bool is_good(const Sliver& s, bool is_strict, const Cavity_3<Tr>& cavity, const Vec_3& at) const {
     const Value value = value_of(s, cavity, at, {s.cosine, s.cosine});
@@ -91,6 +77,27 @@ class Feature_places_3 {
   struct Value {
     double strict = refused, relaxed = refused;
   };
+
+  Choice choose(const Sliver& s, bool may_tear) {
+    list_places(s);
+    Choice choice{.place = {}, .may_tear = may_tear};
+    Value best{s.cosine, s.cosine};
+    const Place *strict = nullptr, *relaxed = nullptr;
+    for (const Place& place : places_) {
+      const auto look = [&](const Cavity_3<Tr>& cavity, const Vec_3& at) {
+        const Value value = value_of(s, cavity, at, best);
+        if (value.strict < best.strict) best.strict = value.strict, strict = &place;
+        if (value.relaxed < best.relaxed) best.relaxed = value.relaxed, relaxed = &place;
+      };
+      choice.is_foreign |= !engine_.look_at_piece(*worker_, territory_, place.piece, place.is_subsegment, place.at, may_tear, look);
+      if (best.strict > wanted_) continue;
+      choice.is_foreign = false;  // no other can be better
+      break;
+    }
+    choice.is_strict = strict != nullptr;
+    if (strict || relaxed) choice.place = strict ? *strict : *relaxed;
+    return choice;
+  }
 
   /// A few on each subsegment and subfacet of a tetrahedron, or else on those subfacets that have an edge of it: cocircular vertices of two
   /// walls of a slot.

@@ -57,10 +57,14 @@ class Sliver_removal_3 {
       slivers = find_new_slivers();
       give_up_pinched(slivers);
     }
+    is_limited_ = on_features.is_limited();
     // What is left of them all was given up, or not looked at.
     statistics_.left = slivers.empty() && !is_any_given_up_ ? 0 : find_slivers().size();
     return statistics_;
   }
+
+  /// Whether the last run ended near the limit of vertices.
+  bool is_limited() const { return is_limited_; }
 
  private:
   static constexpr std::size_t most_rounds = 3;  ///< with territories
@@ -183,7 +187,7 @@ class Sliver_removal_3 {
   const std::atomic<bool>* cancel_;
   Sliver_statistics statistics_;
   std::vector<Sliver> hopeless_;  ///< what is left inside
-  bool is_any_given_up_ = false;
+  bool is_any_given_up_ = false, is_limited_ = false;
 };
 
 }  // namespace pgdr
