@@ -45,10 +45,11 @@ int run_check(const Check_arguments& arguments) {
     options.radius_edge_ratio = parse_positive("--radius-edge-ratio", arguments.radius_edge_ratio);
   if (!arguments.min_dihedral.empty()) options.min_dihedral_deg = parse_dihedral_angle("--min-dihedral", arguments.min_dihedral);
   arguments.domain.check();  // nonsense is refused even where it is not needed
+  if (arguments.inputs.empty() && arguments.domain.is_any_given()) throw Usage_error("options for the input go with --plc");
   require_extension("MESH", arguments.mesh, {".mesh"});
   if (!arguments.quality.empty()) {
     require_extension("--quality", arguments.quality, {".csv"});
-    std::vector<std::filesystem::path> inputs(arguments.inputs.begin(), arguments.inputs.end());
+    std::vector<std::filesystem::path> inputs = files_of(arguments.inputs);
     inputs.emplace_back(arguments.mesh);
     require_distinct_files(inputs, {arguments.quality});
     check_writable(arguments.quality);

@@ -96,7 +96,7 @@ void check_outputs(const Info_arguments& arguments) {
     files.emplace_back(arguments.write_plc);
   }
   add_problem_file(arguments.problems, files);
-  require_distinct_files({arguments.inputs.begin(), arguments.inputs.end()}, files);
+  require_distinct_files(files_of(arguments.inputs), files);
   for (const auto& file : files) check_writable(file);
 }
 

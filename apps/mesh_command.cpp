@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -214,7 +215,7 @@ void check_outputs(const Mesh_arguments& arguments) {
     files.emplace_back(arguments.report);
   }
   add_problem_file(arguments.problems, files);
-  require_distinct_files({arguments.inputs.begin(), arguments.inputs.end()}, files);
+  require_distinct_files(files_of(arguments.inputs), files);
   for (const auto& file : files) check_writable(file);
 }
 
@@ -237,6 +238,18 @@ void find_facets_of_files(Indexed_mesh_3& mesh, const Mesh_arguments& arguments)
   } catch (const Input_error& error) {
     print_message(std::string("warning: triangles are written without the input's facets: ") + error.what());
   }
+}
+
+/// Names of regions that have no tetrahedra, with a warning: of a part of an assembly that lies in others, or by a mistake.
+void drop_empty_regions(Reference_names& names, const std::vector<std::int32_t>& of_tetrahedra) {
+  const std::set<int> ids(of_tetrahedra.begin(), of_tetrahedra.end());
+  std::string known;
+  for (const int id : ids) known += (known.empty() ? "" : ", ") + std::to_string(id);
+  std::erase_if(names.regions, [&](const auto& region) {
+    if (ids.contains(region.first)) return false;
+    print_message("warning: region " + std::to_string(region.first) + ", '" + region.second + "', has no tetrahedra; regions are " + known);
+    return true;
+  });
 }
 
 /// What went in, for people.
@@ -317,6 +330,7 @@ int run_mesh(const Mesh_arguments& arguments) {
   }
   timer.end_phase("numbering");
   progress.show("measuring");
+  if (run.stop == Stop_reason::finished) drop_empty_regions(mesh.names, mesh.tetrahedron_references);
   run.quality = mesh_quality(mesh);
   run.checksum = mesh_checksum(mesh);
   run.exempt_tetrahedra = mesh.exempt.size();
@@ -362,7 +376,8 @@ int run_mesh(const Mesh_arguments& arguments) {
   if (run.stop == Stop_reason::finished) return exit_done;
   std::string message = run.stop_message.empty() ? std::string("stopped: ") + stop_reason_name(run.stop) : run.stop_message;
   if (!is_usable && !arguments.outputs.empty()) message += "; there are no tetrahedra, and nothing was written";
-  if (arguments.domain.tolerance.empty() && (run.unrecovered > 0 || run.exempt_tetrahedra > 0))
+  const bool is_to_blame = run.unrecovered > 0 || 1000 * run.exempt_tetrahedra > mesh.tetrahedra.size();
+  if (arguments.domain.tolerance.empty() && is_to_blame)
     message += "; --tolerance 1e-5d, or more, takes small angles away that are no part of the shape";
   print_message(message);
   return exit_stopped;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <pgdr/domain/patches.h>
@@ -10,6 +11,7 @@
 #include <pgdr/domain/valid_domain.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/parameters.h>
+#include <pgdr/report/format.h>
 
 #include "arguments.h"
 #include "messages.h"
@@ -77,6 +79,11 @@ void Domain_options::check() const {
   parse_names("--name-region", region_names);
 }
 
+bool Domain_options::is_any_given() const {
+  return !tolerance.empty() || !coplanar_tolerance.empty() || triangulate || repair || !largest_hole.empty() || !nesting.empty() || !holes.empty() || !regions.empty() ||
+         markers_from != "names" || changes_references();
+}
+
 double Domain_options::fusing_tolerance() const {
   if (coplanar_tolerance.empty()) return Parameters().coplanar_tolerance;
   return parse_tolerance("--coplanar-tolerance", coplanar_tolerance);
@@ -129,6 +136,13 @@ Plc repaired_input(const std::vector<std::string>& files, const Domain_options& 
 
 }  // namespace
 
+std::vector<std::filesystem::path> files_of(const std::vector<std::string>& inputs) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& input : inputs)
+    for (auto& file : plc_files(input)) files.push_back(std::move(file));
+  return files;
+}
+
 std::string names_of(const std::vector<std::string>& files) {
   std::string names;
   for (const std::string& file : files) names += (names.empty() ? "" : ", ") + file;
@@ -153,8 +167,11 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
   }
   plc.regions.insert(plc.regions.begin(), regions.begin(), regions.end());  // the first seed of a volume counts
 
-  const double tolerance = simplification(files, options).in_units(bounding_diagonal(plc));
+  const double diagonal = bounding_diagonal(plc), tolerance = simplification(files, options).in_units(diagonal);
+  if (tolerance > 0 && tolerance >= diagonal) throw Usage_error("--tolerance has to be less than the bounding box's diagonal, which is " + significant(diagonal, 4));
   input.plc = simplify_as_far_as_valid(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
+  if (!options.tolerance.empty() && input.simplified.used < tolerance && !input.simplified.is_none())
+    print_message("warning: --tolerance: with " + significant(tolerance, 3) + " elements would be no larger, or angles smaller, so that " + significant(input.simplified.used, 3) + " is used");
   mark_and_name(input.plc, options);
   if (options.changes_references()) input.simplified.understood.reset();
   return input;

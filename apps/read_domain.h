@@ -44,6 +44,9 @@ struct Domain_options {
   /// Polygons that are not plane become triangles.
   bool accepts_bent_polygons() const { return triangulate || repair; }
 
+  /// Whether one of them is not as by default.
+  bool is_any_given() const;
+
   /// Whether markers or names become others than those of the file.
   bool changes_references() const { return !patch_angle.empty() || !marker_names.empty() || !region_names.empty(); }
 
@@ -63,6 +66,9 @@ struct Input {
 /// fused facets plane; the latter not at all if the result could not be meshed, so that what is wrong is said of what is in the file.
 /// Throws `Input_error`.
 Input read_input(const std::vector<std::string>& files, const Domain_options& options);
+
+/// All files that are read for these.
+std::vector<std::filesystem::path> files_of(const std::vector<std::string>& inputs);
 
 /// Files as they are named in messages.
 std::string names_of(const std::vector<std::string>& files);

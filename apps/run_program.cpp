@@ -49,11 +49,15 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // A slip comes before what is missing, which may be missing because of it.
     const auto command = std::ranges::find_if(commands, [](const Command& c) { return c.parser->parsed(); });
+    if (command == commands.end() && argc > 1 && argv[1][0] != '-')
+      throw Usage_error("there is no command " + std::string(argv[1]) + "; there are mesh, check, info and view (--help tells what is possible)");
     const auto unknown = unknown_option_text(command == commands.end() ? program : *command->parser);
     throw Usage_error(unknown.value_or(error.what()) + " (--help tells what is possible)");
   }
   for (const Command& command : commands) {
-    if (command.parser->parsed()) return command.run();
+    if (!command.parser->parsed()) continue;
+    if (const auto empty = empty_value_text(*command.parser)) throw Usage_error(*empty);
+    return command.run();
   }
   throw Usage_error("no command given: mesh, check, info or view (--help tells what is possible)");
 }
@@ -65,6 +69,7 @@ void print_remedy(const Input_error& error, const std::vector<std::string>& word
     return std::ranges::any_of(error.problems(), [&](const Input_problem& p) { return std::ranges::find(kinds, p.kind) != kinds.end(); });
   };
   const bool repairs = std::ranges::find(words, "--repair") != words.end();
+  if (has({Kind::non_planar_facet})) print_message("--triangulate accepts polygons that are not plane, as triangles");
   if (!repairs && has({Kind::self_intersection, Kind::open_surface, Kind::degenerate_facet, Kind::non_planar_facet}))
     print_message("--repair may make it valid: it closes holes and cracks, and divides what intersects");
   else if (repairs && has({Kind::open_surface}))

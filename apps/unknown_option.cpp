@@ -46,4 +46,10 @@ std::optional<std::string> unknown_option_text(const CLI::App& parser) {
   return "there is no option " + typed + (nearest.empty() ? "" : "; did you mean --" + nearest + "?");
 }
 
+std::optional<std::string> empty_value_text(const CLI::App& parser) {
+  for (const CLI::Option* option : parser.get_options())
+    if (option->get_items_expected_max() > 0 && std::ranges::any_of(option->results(), &std::string::empty)) return option->get_name() + " has an empty value";
+  return std::nullopt;
+}
+
 }  // namespace pgdr::app

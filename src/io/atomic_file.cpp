@@ -27,16 +27,18 @@ constexpr std::size_t buffer_size = std::size_t(1) << 20;
   throw Output_error("cannot write '" + target.string() + "': " + why);
 }
 
-/// The file that a rename has to replace; a link keeps pointing where it did.
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// The file that a rename has to replace, or to make; a link keeps pointing where it did.
 fs::path behind_links(const fs::path& target) {
   std::error_code error;
   if (!fs::is_symlink(target, error)) return target;
   fs::path resolved = fs::canonical(target, error);
-  return error ? target : resolved;
-}
-
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!error) return resolved;
+  resolved = folder_of(target) / fs::read_symlink(target, error);  // nothing is there yet
+  return error || fs::is_symlink(resolved, error) ? target : resolved;
 }
 
 /// What a rename would do without asking: replace a device, or a file that its owner protected.

@@ -94,17 +94,21 @@ class Line_scanner {
     return value;
   }
 
-  /// Three finite coordinates.
+  /// Three finite coordinates, with blanks or commas between them; not with both, as where commas are meant as decimal points.
   std::array<double, 3> point(Label owner) {
     static constexpr const char* names[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
     std::array<double, 3> p;
+    std::array<bool, 2> is_comma{};  // without a blank
     for (std::size_t i = 0; i < 3; ++i) {
+      const char* const begin = rest_.data();
       p[i] = real(names[i], owner);
+      if (i < 2) is_comma[i] = rest_.data() > begin && rest_.data()[-1] == ',' && std::none_of(begin, rest_.data(), [](char c) { return c == ' ' || c == '\t'; });
       if (!std::isfinite(p[i])) {
         fail(Kind::bad_coordinate,
              owner.of(names[i]) + (std::isnan(p[i]) ? " is not a number" : " is infinite"));
       }
     }
+    if (is_comma[0] != is_comma[1]) fail(Kind::unreadable, owner.text() + " has a number with a comma; decimals are written with a point");
     return p;
   }
 

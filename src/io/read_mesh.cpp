@@ -117,6 +117,8 @@ class Plc_builder {
       plc_.segments.push_back({number_[mesh_.edges[i][0]], number_[mesh_.edges[i][1]], io_detail::reference_of(mesh_.edge_references, i)});
     add_seeds();
     add_holes();
+    // A .vtu has them all, and mostly no triangles.
+    std::erase_if(plc_.names.markers, [this](const auto& name) { return std::ranges::none_of(plc_.facets, [&](const auto& facet) { return facet.marker == name.first; }); });
     return std::move(plc_);
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <pgdr/domain/reference_names.h>
 #include <pgdr/io/read_mesh.h>
@@ -43,6 +44,13 @@ Plc read_plc(const std::filesystem::path& path, Markers_from markers) {
   Plc plc = read_any(path, markers);
   plc.name = io_detail::as_utf8(path.stem().string());
   return plc;
+}
+
+std::vector<std::filesystem::path> plc_files(const std::filesystem::path& path) {
+  const std::string extension = io_detail::lower_extension(path);
+  std::vector<std::filesystem::path> files{path};
+  if ((extension == ".poly" || extension == ".smesh") && io_detail::has_node_file(path)) files.push_back(io_detail::node_file(path));
+  return files;
 }
 
 bool is_surface_file(const std::filesystem::path& path) {

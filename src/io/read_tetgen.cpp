@@ -65,8 +65,7 @@ class Tetgen_reader {
   }
 
   void read_node_file() {
-    std::filesystem::path path = in_.path();
-    path.replace_extension(".node");
+    const std::filesystem::path path = node_file(in_.path());
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {
       in_.fail(Kind::empty, "there are no vertices, and no file '" + path.string() + "' that holds them");
@@ -201,6 +200,14 @@ class Tetgen_reader {
 Plc read_tetgen(const std::filesystem::path& path, Tetgen_format format) {
   const File_text text(path);
   return Tetgen_reader(text.view(), path, format).read();
+}
+
+bool has_node_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const File_text text(path);
+  Line_scanner in(text.view(), path);
+  return in.next_line() && in.word() == "0";
 }
 
 }  // namespace pgdr::io_detail

@@ -22,6 +22,9 @@ enum class Tetgen_format { poly, smesh };
 enum class Surface_format { off, stl, ply, obj };
 
 Plc read_tetgen(const std::filesystem::path& path, Tetgen_format format);
+/// Whether a TetGen file takes its vertices from the file beside it.
+bool has_node_file(const std::filesystem::path& path);
+inline std::filesystem::path node_file(std::filesystem::path path) { return path.replace_extension(".node"); }
 Plc read_surface(const std::filesystem::path& path, Surface_format format, Markers_from markers);
 
 /// What CGAL's reader gets to see, and what it has to find there.

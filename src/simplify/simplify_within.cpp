@@ -68,6 +68,7 @@ struct Candidate {
   Understood understood;
   Narrowness narrow;
   bool is_all;  ///< that can be done, not planes alone
+  double within = 0;
   std::optional<Surface_distance> distance;
 };
 
@@ -77,6 +78,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   Simplification_within ignored;
   Simplification_within& report = done ? *done : ignored;
   report = {};
+  report.used = tolerance;
   if (!(tolerance > 0)) return plc;
   if (exponent_for(plc) != 0) return simplify_within(normalized(plc), tolerance, coplanar_tolerance, triangulate, done);
   const double diagonal = bounding_diagonal(plc), fused = coplanar_tolerance * diagonal, limit = tolerance + fused, unit = unit_of(plc);
@@ -123,6 +125,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
         if (!c.distance || !c.distance->is_within) continue;
         is_better = !best || cost(c.narrow, narrow) < most;
         best = std::move(c);
+        best->within = std::min(within, tolerance);
         break;
       }
       // Planes alone may be better when they are not sought as widely.
@@ -130,6 +133,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
     }
     if (best) {
       report = best->stage.done;
+      report.used = best->within;
       report.limit = limit;
       report.distance = {unit * best->distance->seen, true, unit * best->distance->at};
       report.understood = std::move(best->understood);
@@ -138,6 +142,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   }
   if (before || noise.done.simplification.is_none()) {
     report = noise.done;
+    report.used = std::min(tolerance, fused);
     report.understood = std::move(before);
     return noise.plc;
   }

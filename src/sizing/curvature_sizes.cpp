@@ -31,11 +31,11 @@ std::vector<Sized_triangle> bends(const Domain& domain, double size_per_radius) 
     const auto sheets = edges.sheets(s);
     if (sheets.size() != 2 || !(turn > 0) || turn > feature_angle_deg) continue;
     const auto [a, b] = domain.segments[s].vertices;
-    double height = std::numeric_limits<double>::infinity();
+    double heights = 0;
     for (const auto& sheet : sheets)
       for (const Index v : domain.facets[sheet.facet].triangles[sheet.triangle])
-        if (v != a && v != b) height = std::min(height, std::sqrt(squared_distance_to_line(point(v), point(a), point(b))));
-    const double size = unit_of(domain) * size_per_radius * height / (turn * std::numbers::pi / 180);
+        if (v != a && v != b) heights += std::sqrt(squared_distance_to_line(point(v), point(a), point(b)));
+    const double size = unit_of(domain) * size_per_radius * heights / (2 * turn * std::numbers::pi / 180);
     if (!(size > 0 && std::isfinite(size))) continue;
     for (const auto& sheet : sheets) result.push_back({facet_triangle_of(domain, domain.facets[sheet.facet].triangles[sheet.triangle]), size});
   }

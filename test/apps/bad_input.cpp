@@ -167,6 +167,22 @@ TEST_CASE("a seed outside of everything is only worth a warning", "[apps]") {
   }
 }
 
+TEST_CASE("a region seed that another seed overrules is worth a warning", "[apps]") {
+  const Sandbox sandbox;
+  const auto warning = [&](const std::string& seeds) {
+    const Run run = sandbox.run("mesh --quiet " + shape("cube.poly") + " -o out.vtu " + seeds);
+    CHECK(run.exit_code == 0);
+    return run.err;
+  };
+  const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  CHECK(has(warning("--region .5,.5,.5:1 --region .4,.5,.5:2"), "region seed 2 at (0.4, 0.5, 0.5) lies in the volume of region seed 1 and is left out"));
+  CHECK(has(warning("--region .5,.5,.5:1 --name-region 7=steel"), "region 7, 'steel', has no tetrahedra; regions are 1"));
+  CHECK(warning("--region .5,.5,.5:1 --region .4,.5,.5:1").empty());
+  const Run run = sandbox.run("info " + shape("two_regions.poly") + " --region .25,.5,.5:4 --hole .2,.5,.5");
+  CHECK(run.exit_code == 0);
+  CHECK(has(run.err, "lies in the volume of hole seed 1"));
+}
+
 TEST_CASE("a seed on a facet, an edge or a vertex is an error", "[apps]") {
   const Sandbox sandbox;
   sandbox.write("out.mesh", "precious");

@@ -80,4 +80,6 @@ TEST_CASE("check without sense", "[apps]") {
   pgdr_test::check_fails(sandbox, "check out.mesh --radius-edge-ratio 0", 2, {"--radius-edge-ratio"});
   pgdr_test::check_fails(sandbox, "check out.mesh --coplanar-tolerance x", 2, {"--coplanar-tolerance"});
   pgdr_test::check_fails(sandbox, "check out.mesh --plc missing.poly", 3, {"missing.poly"});
+  for (const char* option : {"--tolerance 1e-3d", "--patch-angle 7", "--hole 1,2,3", "--repair"})
+    pgdr_test::check_fails(sandbox, std::string("check out.mesh ") + option, 2, {"--plc"});
 }

@@ -56,6 +56,16 @@ TEST_CASE("holes wider than --fill-holes are named", "[apps]") {
   CHECK(sandbox.run("mesh open.off --fill-holes 1 -o out.mesh").exit_code == 2);
 }
 
+TEST_CASE("a part that others have all of is worth a warning", "[apps]") {
+  const Sandbox sandbox;
+  write_box(sandbox / "inner.off", 0.25, 0.75);
+  write_box(sandbox / "outer.off", 0, 1);
+  const Run lost = sandbox.run("mesh inner.off outer.off -o out.vtu --quiet");
+  CHECK(lost.exit_code == 0);
+  CHECK(lost.err.find("region 1, 'inner', has no tetrahedra; regions are 2") != std::string::npos);
+  CHECK(sandbox.run("mesh outer.off inner.off -o out.vtu --quiet").err.empty());
+}
+
 TEST_CASE("several inputs are an assembly, a region each", "[apps]") {
   const Sandbox sandbox;
   write_box(sandbox / "a.off", 0, 1);

@@ -29,13 +29,17 @@ TEST_CASE("help and version", "[apps]") {
 TEST_CASE("a command line that is incomplete or unknown", "[apps]") {
   const Sandbox sandbox;
   check_fails(sandbox, "", 2, {"command"});
-  check_fails(sandbox, "knit", 2, {"knit"});
+  check_fails(sandbox, "knit", 2, {"no command knit", "mesh", "view"});
   check_fails(sandbox, "mesh " + shape("cube.poly"), 2, {"-o"});
   check_fails(sandbox, "mesh -o out.vtu", 2, {"INPUT"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --fast", 2, {"--fast"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --siez 0.5", 2, {"no option --siez", "did you mean --size?"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " --siez 0.5", 2, {"did you mean --size?"});  // -o is missing, too
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --max-memroy=4G", 2, {"did you mean --max-memory?"});
+  // As of a variable that is not set.
+  for (const char* option : {"--size", "--min-dihedral", "--tolerance", "--max-vertices", "--time-limit", "--stats", "--trace"})
+    check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu " + option + " ''", 2, {option, "empty"});
+  check_fails(sandbox, "check out.mesh --min-dihedral ''", 2, {"--min-dihedral", "empty"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " " + shape("cube.poly") + " -o out.vtu", 2,
               {"cube.poly"});
   check_fails(sandbox, "check", 2, {"MESH"});
@@ -93,4 +97,13 @@ TEST_CASE("outputs that make no sense", "[apps]") {
   check_fails(sandbox, "mesh cube.poly -o out.vtu --stats cube.poly", 2, {"cube.poly", "overwritten"});
   check_fails(sandbox, "info cube.poly --write-plc cube.poly", 2, {"cube.poly", "overwritten"});
   CHECK(pgdr_test::file_text(sandbox / "cube.poly") == cube);
+  // The vertices may be in a file of their own, and .ele is written with one of that name.
+  const std::string nodes = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+  const std::string facets = "4 0\n1\n3 1 2 3\n1\n3 1 2 4\n1\n3 2 3 4\n1\n3 3 1 4\n0\n0\n";
+  sandbox.write("apart.node", nodes);
+  sandbox.write("apart.poly", "0 3 0 0\n" + facets);
+  check_fails(sandbox, "mesh apart.poly -o apart.ele", 2, {"apart.node", "overwritten"});
+  CHECK(pgdr_test::file_text(sandbox / "apart.node") == nodes);
+  sandbox.write("whole.poly", nodes + facets);
+  for (int time = 0; time < 2; ++time) CHECK(sandbox.run("mesh whole.poly -o whole.ele --quiet").exit_code == 0);
 }

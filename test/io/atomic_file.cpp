@@ -137,6 +137,12 @@ TEST_CASE("Atomic_file: keeps permissions and writes through links") {
   file.commit();
   CHECK(std::filesystem::is_symlink(folder / "link.txt"));
   CHECK(content_of(target) == "new");
+  std::filesystem::create_symlink("later.txt", folder / "early.txt");  // to what is not there yet
+  Atomic_file early(folder / "early.txt");
+  early.write("late");
+  early.commit();
+  CHECK(std::filesystem::is_symlink(folder / "early.txt"));
+  CHECK(content_of(folder / "later.txt") == "late");
   struct stat status;
   REQUIRE(::stat(target.c_str(), &status) == 0);
   CHECK((status.st_mode & 0777) == 0600);

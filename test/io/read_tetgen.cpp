@@ -146,6 +146,7 @@ TEST_CASE("poly: errors name the line") {
       {"99999999999 3 0 0\n", Kind::unreadable, "too short"},
       {"4 2 0 0\n", Kind::unreadable, "line 1: the dimension is 2"},
       {"2 3 0 0\n0 0 0 0\n", Kind::unreadable, "line 2: the file ends before vertex 1"},
+      {"2 3 0 0\n0 0,5 0 0\n", Kind::unreadable, "line 2: vertex 0 has a number with a comma; decimals are written with a point"},
       {"2 3 0 0\n0 0 0\n1 0 0 0\n", Kind::unreadable,
        "line 2: the line ends before the z coordinate of vertex 0"},
       {"1 3 0 0\n\n0 0 nan 0\n", Kind::bad_coordinate,

@@ -57,6 +57,27 @@ TEST_CASE("sizes are in proportion to the radius of curvature", "[sizing]") {
   CHECK(pgdr::curvature_sizes(domain, edges_per_turn, g, 1).size() == 1);
 }
 
+TEST_CASE("a needle in a curved surface is no sharp bend", "[sizing]") {
+  // A sixth of a cylinder of radius 1 in strips of 10 degrees, one of which is divided at a hundredth of its width.
+  pgdr::Plc plc;
+  std::vector<pgdr::Index> bottom, top;
+  for (const double degrees : {0.0, 10.0, 20.0, 20.1, 30.0, 40.0, 50.0, 60.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    bottom.push_back(static_cast<pgdr::Index>(plc.vertices.size()));
+    plc.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    top.push_back(static_cast<pgdr::Index>(plc.vertices.size()));
+    plc.vertices.emplace_back(std::cos(angle), std::sin(angle), 4);
+  }
+  for (pgdr::Index i = 0, n = static_cast<pgdr::Index>(bottom.size()); i < n; ++i)
+    plc.facets.push_back({{{bottom[i], bottom[(i + 1) % n], top[(i + 1) % n], top[i]}}, {}, 0});
+  plc.facets.push_back({{bottom}, {}, 0});
+  plc.facets.push_back({{top}, {}, 0});
+  const auto domain = pgdr::make_domain_3(plc, 1e-9);
+  const double g = 0.5, edges_per_turn = 2 * std::numbers::pi / 0.3 / pgdr::mean_edge;
+  const double angle = 20.05 * std::numbers::pi / 180;
+  CHECK(std::abs(smallest(pgdr::curvature_sizes(domain, edges_per_turn, g), Point(std::cos(angle), std::sin(angle), 2)) - (1 - g) * 0.3) < 0.02);
+}
+
 TEST_CASE("edges of boxes are features, and no curved surface", "[sizing]") {
   pgdr::Plc plc;
   add_prism(plc, 4, 1, 0);

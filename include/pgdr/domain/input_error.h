@@ -23,7 +23,7 @@ struct Input_problem {
     self_intersection,  ///< two facets meet other than in common vertices and segments
     open_surface,       ///< nothing is enclosed
     empty,              ///< no facets, or no volume left after holes
-    bad_seed,           ///< a hole or region seed outside of every enclosed volume; left out
+    bad_seed,           ///< a hole or region seed outside of every enclosed volume, or overruled by another one; left out
     ambiguous_seed      ///< a hole or region seed on a facet
   };
   Kind kind;

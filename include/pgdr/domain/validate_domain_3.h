@@ -189,6 +189,9 @@ void report_volumes(const Domain_3<K>& domain, const Volumes_3<K>& volumes, std:
   };
   for (const auto& seed : volumes.lost_holes()) lost("hole seed ", seed, domain.holes[seed.seed]);
   for (const auto& seed : volumes.lost_regions()) lost("region seed ", seed, domain.regions[seed.seed].point);
+  for (const auto& seed : volumes.overruled_regions())
+    problems.push_back({Kind::bad_seed, "region seed " + std::to_string(seed.seed + 1) + " at " + write.point(domain.regions[seed.seed].point) + " lies in the volume of " +
+                                            (seed.by_hole ? "hole" : "region") + " seed " + std::to_string(seed.by + 1) + " and is left out"});
   if (std::none_of(volumes.volumes().begin(), volumes.volumes().end(),
                    [](const Volume& v) { return v.material; }))
     problems.push_back({Kind::empty, "every enclosed volume is a hole, so that nothing is left to mesh"});

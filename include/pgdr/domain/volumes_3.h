@@ -7,6 +7,7 @@
 #include <compare>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -131,6 +132,14 @@ class Volumes_3 {
   const std::vector<Lost_seed>& lost_holes() const { return lost_holes_; }
   const std::vector<Lost_seed>& lost_regions() const { return lost_regions_; }
 
+  /// A region seed in a volume that another one gives another id, or a hole seed leaves empty.
+  struct Overruled_seed {
+    std::size_t seed;  ///< position in `Domain_3::regions`
+    std::size_t by;    ///< position of the other one, in `Domain_3::holes` if `by_hole`
+    bool by_hole;
+  };
+  const std::vector<Overruled_seed>& overruled_regions() const { return overruled_regions_; }
+
  private:
   std::size_t volume_of_side(std::size_t triangle, bool front) const {
     return side_volume_[front ? domain_detail::front_side(triangle) : domain_detail::back_side(triangle)];
@@ -237,12 +246,15 @@ class Volumes_3 {
 
   void apply_seeds(const Domain_3<K>& domain) {
     std::set<int> taken;
+    std::map<std::size_t, std::size_t> hole_of, region_of;  // of a volume, the first one
     for (std::size_t i = 0; i < domain.holes.size(); ++i) {
       const auto [v, facet] = find(domain.holes[i]);
-      if (v == none || v == 0)
+      if (v == none || v == 0) {
         lost_holes_.push_back({i, facet});
-      else
+      } else {
         volumes_[v].is_hole = true;
+        hole_of.try_emplace(v, i);
+      }
     }
     for (std::size_t i = 0; i < domain.regions.size(); ++i) {
       const auto& region = domain.regions[i];
@@ -250,7 +262,14 @@ class Volumes_3 {
       const auto [v, facet] = find(region.point);
       if (v == none || v == 0) {
         lost_regions_.push_back({i, facet});
-      } else if (!volumes_[v].has_region) {  // the first seed of a volume counts
+        continue;
+      }
+      if (const auto hole = hole_of.find(v); hole != hole_of.end())
+        overruled_regions_.push_back({i, hole->second, true});
+      else if (volumes_[v].has_region && volumes_[v].region_id != region.id)
+        overruled_regions_.push_back({i, region_of[v], false});
+      if (!volumes_[v].has_region) {  // the first seed of a volume counts
+        region_of[v] = i;
         volumes_[v].has_region = true;
         volumes_[v].region_id = region.id;
         volumes_[v].max_volume = region.max_volume;
@@ -276,6 +295,7 @@ class Volumes_3 {
   std::vector<Index> side_volume_;
   std::vector<Lost_seed> lost_holes_;
   std::vector<Lost_seed> lost_regions_;
+  std::vector<Overruled_seed> overruled_regions_;
 };
 
 /// The volumes of a domain, with the material among them decided by seeds and nesting.

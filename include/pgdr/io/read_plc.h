@@ -29,6 +29,9 @@ enum class Markers_from {
 /// Throws `Input_error`, whose message is one sentence with the file and, in text files, the 1-based line.
 Plc read_plc(const std::filesystem::path& path, Markers_from markers = Markers_from::names);
 
+/// The files that `read_plc` reads: this one, and the `.node` file beside it if the vertices are there. It need not exist.
+std::vector<std::filesystem::path> plc_files(const std::filesystem::path& path);
+
 /// Whether the extension is that of a surface format.
 bool is_surface_file(const std::filesystem::path& path);
 

@@ -16,6 +16,8 @@ namespace pgdr {
 struct Simplification_within {
   Simplification simplification;
   Planarization planarization;  ///< of all passes: facets and moves added up, a vertex once for each pass that moved it
+  /// The tolerance that was used: the one asked for, or less.
+  double used = 0;
   /// For the distance of the result from what it was made of; 0: it has not changed by more than facets are fused.
   double limit = 0;
   Surface_distance distance;  ///< as measured, where there is a limit

@@ -16,9 +16,9 @@ constexpr double feature_angle_deg = 40;
 
 /// Bounds in proportion to the radius of curvature of the surface that a tessellated input stands for, all of which hold.
 ///
-/// Where two facets meet, and no others, with an angle t < `feature_angle_deg` between their normals, the radius is h / t, with h the height of the lower of their
-/// triangles over the common segment: exact for a cylinder of equal strips, and two thirds to one and a half times as much on a sphere of nearly equal
-/// triangles. Tetrahedra that touch these triangles have edges so short that `edges_per_turn` of them make a full turn: circumradii of at most the length of the turn
+/// Where two facets meet, and no others, with an angle t < `feature_angle_deg` between their normals, the radius is h / t, with h the mean height of their
+/// triangles over the common segment: chords of a circle turn by half of the sum of their angles, so that this is right for a cylinder of strips, equal or not, and
+/// two thirds to one and a half times as much on a sphere of nearly equal triangles. Tetrahedra that touch these triangles have edges so short that `edges_per_turn` of them make a full turn: circumradii of at most the length of the turn
 /// over that number and `mean_edge`. Around them the bound grows as
 /// around `facet_sizes`. Radii within a factor of sqrt(2) make one field, with the smallest of them.
 /// \param gradation above 0 and below 1
