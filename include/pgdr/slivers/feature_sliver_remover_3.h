@@ -72,22 +72,19 @@ class Feature_sliver_remover_3 {
     std::size_t inserted = 0;
     for (const bool is_split : {false, true})
       for (std::size_t k = 0; k < slivers.size(); ++k)
-        if (slivers[k].is_live() && !stays[k] && !must_stop()) {
-          const std::size_t now = is_split ? split(slivers[k]) : put_point(slivers[k], choices[k]);
-          most_at_once_ = std::max(most_at_once_, now);
-          inserted += now;
-        }
+        if (slivers[k].is_live() && !stays[k] && !must_stop()) inserted += is_split ? split(slivers[k]) : put_point(slivers[k], choices[k]);
     return inserted;
   }
 
-  /// Whether there may be too many vertices after another one and those that it asks for.
-  bool is_limited() const { return tr_.number_of_vertices() + most_at_once_ >= most_vertices_; }
+  /// Whether there would be too many vertices with another one and those that it asks for.
+  bool is_limited() const { return tr_.number_of_vertices() + most_at_once >= most_vertices_; }
 
  private:
   // Of the vertices. With 1, 1.5, 2 and 3 %, the median of 18 models has 1.7, 2.0, 3.1 and 3.5 % more tetrahedra than without removal; below 5
   // degrees are then, of a04 152, 180, 180, 197, of a07 37, 25, 12, 0, of a11 4, 0, 0, 0, of a12 62, 56, 48, 49.
   static constexpr double budget_share = 0.015;
   static constexpr std::size_t more_for_flat = 64;  ///< small meshes have flat tetrahedra, too
+  static constexpr std::size_t most_at_once = 32;  ///< that one point asks for mostly; it can be thousands next to small angles
   /// Where something beside a severe sliver is so many times as poor, a split would ask for that to be refined, too.
   static constexpr double much_poorer = 2;
 
@@ -208,7 +205,7 @@ class Feature_sliver_remover_3 {
   double as_wedge_;  ///< the cosine of a quarter of the smallest dihedral angle: no wedge makes what is flatter
   std::array<Budget, levels> budgets_;
   std::size_t budget_for_flat_;
-  std::size_t most_vertices_, most_at_once_ = 32;  ///< inserted for one sliver so far: each asks for others
+  std::size_t most_vertices_;
   const std::atomic<bool>* cancel_;
   std::vector<Cell_handle> around_;
 };
