@@ -238,6 +238,11 @@ TEST_CASE("Severe slivers go, too, when others have spent what all may cost", "[
   }
 }
 
+TEST_CASE("Walls that face each other leave no sliver across them that no angle of the input accounts for", "[slivers]") {
+  const Mesh mesh = refined(pgdr::read_plc(data_file("../test/corpus/touch_76.poly")), any_size);
+  CHECK(pgdr::mesh_quality(pgdr::indexed_mesh_3(mesh)).min_dihedral_deg > 11.9);  // 2e-13 where no point may delete pieces of the wall across
+}
+
 TEST_CASE("The limit of vertices holds while slivers are removed", "[slivers]") {
   const pgdr::Plc plc = pgdr::read_plc(data_file("cube.poly"));
   const std::size_t vertices = without_slivers(plc, 0.06, 0).triangulation().number_of_vertices();

@@ -23,7 +23,8 @@ namespace pgdr {
 
 /// Looks for the place on the boundary where a point takes a sliver away:
 /// 1. where that makes nothing that is poor, or has as small an angle;
-/// 2. else where it makes nothing on the boundary alone that has as small an angle, and few poor tetrahedra.
+/// 2. else where it makes nothing on the boundary alone that has as small an angle, and few poor tetrahedra;
+/// 3. else, if no small angle of the input accounts for the sliver, where that holds and pieces of other features are deleted: of the wall across.
 ///
 /// Changes nothing: several may look at once, each within a territory of its own.
 template <class Tr, class Criteria, class Engine>
@@ -56,10 +57,11 @@ class Feature_places_3 {
 
   /// \pre the sliver is within the territory
   Choice choose(const Sliver& s) {
-    const Choice choice = choose(s, false);
+    const Choice choice = best_place(s, false);
     const bool is_hopeless = !choice.place && !choice.is_foreign && !is_explained(engine_.acute(), s.cell);
-    return is_hopeless ? choose(s, true) : choice;
+    return is_hopeless ? best_place(s, true) : choice;
   }
+
   /// Whether a point with this cavity is as good for the sliver as was chosen.
   bool is_good(const Sliver& s, bool is_strict, const Cavity_3<Tr>& cavity, const Vec_3& at) const {
     const Value value = value_of(s, cavity, at, {s.cosine, s.cosine});
@@ -78,7 +80,7 @@ class Feature_places_3 {
     double strict = refused, relaxed = refused;
   };
 
-  Choice choose(const Sliver& s, bool may_tear) {
+  Choice best_place(const Sliver& s, bool may_tear) {
     list_places(s);
     Choice choice{.place = {}, .may_tear = may_tear};
     Value best{s.cosine, s.cosine};
