@@ -56,6 +56,7 @@ TEST_CASE("options of mesh that make no sense", "[apps]") {
   check_fails(sandbox, mesh + "--radius-edge-ratio nan", 2, {"--radius-edge-ratio"});
   check_fails(sandbox, mesh + "--coplanar-tolerance=-1", 2, {"--coplanar-tolerance"});
   check_fails(sandbox, mesh + "--coplanar-tolerance 1", 2, {"--coplanar-tolerance"});
+  check_fails(sandbox, mesh + "--tolerance 2", 2, {"--tolerance", "diagonal", "1.732"});
   check_fails(sandbox, mesh + "--min-edge-length 0", 2, {"--min-edge-length"});
   check_fails(sandbox, mesh + "--max-vertices 0", 2, {"--max-vertices"});
   check_fails(sandbox, mesh + "--max-vertices=-5", 2, {"--max-vertices"});
