@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -241,12 +241,11 @@ void find_facets_of_files(Indexed_mesh_3& mesh, const Mesh_arguments& arguments)
 }
 
 /// Names of regions that have no tetrahedra, with a warning: of a part of an assembly that lies in others, or by a mistake.
-void drop_empty_regions(Reference_names& names, const std::vector<std::int32_t>& of_tetrahedra) {
-  const std::set<int> ids(of_tetrahedra.begin(), of_tetrahedra.end());
+void drop_empty_regions(Reference_names& names, const std::map<std::int32_t, double>& volumes) {
   std::string known;
-  for (const int id : ids) known += (known.empty() ? "" : ", ") + std::to_string(id);
+  for (const auto& [id, volume] : volumes) known += (known.empty() ? "" : ", ") + std::to_string(id);
   std::erase_if(names.regions, [&](const auto& region) {
-    if (ids.contains(region.first)) return false;
+    if (volumes.contains(region.first)) return false;
     print_message("warning: region " + std::to_string(region.first) + ", '" + region.second + "', has no tetrahedra; regions are " + known);
     return true;
   });
@@ -330,8 +329,8 @@ int run_mesh(const Mesh_arguments& arguments) {
   }
   timer.end_phase("numbering");
   progress.show("measuring");
-  if (run.stop == Stop_reason::finished) drop_empty_regions(mesh.names, mesh.tetrahedron_references);
   run.quality = mesh_quality(mesh);
+  if (run.stop == Stop_reason::finished) drop_empty_regions(mesh.names, run.quality.region_volumes);
   run.checksum = mesh_checksum(mesh);
   run.exempt_tetrahedra = mesh.exempt.size();
   run.exempt_angles = exempt_angles(mesh, *domain);

@@ -15,11 +15,9 @@
 
 namespace pgdr {
 
-/// Whether a small angle of the input makes the shortest edge of a tetrahedron as short as it is (docs/theory.md, section 11, case 1).
+/// Whether a small angle of the input makes the edge i, j of a tetrahedron, its shortest, as short as it is (docs/theory.md, section 11, case 1).
 template <class Cell_handle>
-bool is_explained_by_edge(const Acute_neighborhood_3& acute, Cell_handle c) {
-  const Tetrahedron_points corners = tetrahedron_points(c);
-  const auto [i, j] = shortest_edge(corners);
+bool is_edge_explained(const Acute_neighborhood_3& acute, Cell_handle c, const Tetrahedron_points& corners, std::size_t i, std::size_t j) {
   return acute.explains(feature_of(c->vertex(static_cast<int>(i))), corners[i], feature_of(c->vertex(static_cast<int>(j))), corners[j]);
 }
 
@@ -33,7 +31,9 @@ inline bool is_explained_by_place(const Acute_neighborhood_3& acute, const Tetra
 /// Either of them.
 template <class Cell_handle>
 bool is_explained(const Acute_neighborhood_3& acute, Cell_handle c) {
-  return is_explained_by_edge(acute, c) || is_explained_by_place(acute, tetrahedron_points(c));
+  const Tetrahedron_points corners = tetrahedron_points(c);
+  const auto [i, j] = shortest_edge(corners);
+  return is_edge_explained(acute, c, corners, i, j) || is_explained_by_place(acute, corners);
 }
 
 /// The exempt tetrahedra that a move or an insertion would take away, and whether others may take their places (docs/theory.md, section 12).
@@ -55,10 +55,8 @@ class Exempt_tetrahedra_3 {
     if (!acute_) return;
     ++count_;
     const Tetrahedron_points corners = tetrahedron_points(c);
-    if (is_explained_by_edge(*acute_, c)) {
-      const auto [i, j] = shortest_edge(corners);
-      edges_.push_back({corners[i], corners[j]});
-    }
+    const auto [i, j] = shortest_edge(corners);
+    if (is_edge_explained(*acute_, c, corners, i, j)) edges_.push_back({corners[i], corners[j]});
     const Tetrahedron_frame frame(corners);
     if (frame.is_flat()) return;  // one with its ratio will not do
     squared_ratio_ = std::max(squared_ratio_, frame.ball().squared_ratio());

@@ -153,7 +153,7 @@ class Feature_sliver_remover_3 {
     if (s.is_flat()) return &budget_for_flat_;
     const double poorest = squared_ratio_of_poor_around(s.cell);
     if (poorest == 0) return nullptr;
-    const bool is_plain = is_split && is_explained(engine_.acute(), s.cell) && poorest > much_poorer * much_poorer * squared_ratio(s.cell);
+    const bool is_plain = is_split && poorest > much_poorer * much_poorer * squared_ratio(s.cell) && is_explained(engine_.acute(), s.cell);
     const auto may_use = [&](const Budget& b) { return b.left > 0 && (is_plain ? &b == &budgets_[0] : s.cosine > b.cosine); };
     const auto found = std::ranges::find_if(budgets_, may_use);
     return found != budgets_.end() ? &found->left : &budgets_[0].left;
