@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
-#include <pgdr/acute/protected_balls_3.h>
 #include <pgdr/acute/split_spacing_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/cavity_search_3.h>
@@ -296,7 +295,7 @@ class Feature_refiner_3 {
   Split_outcome split_flat(std::uint32_t slot, bool is_subsegment, const Vec_3& m, bool may_tear, const Good& is_good) {
     const auto accept = [&](std::uint32_t split, const Vec_3& at) {
       const bool is_allowed = !tears_others(split) || (may_tear && !encroaches_protected(complex_, features_, &acute_, Point(at.x, at.y, at.z)));
-      return is_allowed && acute_.balls().find(at) == Protected_balls_3::none && is_good(std::as_const(cavity_), at);
+      return is_allowed && is_good(std::as_const(cavity_), at);
     };
     return is_subsegment ? split_subsegment_at(slot, m, Split_reason::flat, {}, accept) : split_subfacet_at(slot, m, Split_reason::flat, {}, accept);
   }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
-#include <pgdr/acute/protected_balls_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/constraint_complex_3.h>
 #include <pgdr/conforming/encroachment_3.h>
@@ -68,7 +67,7 @@ class Images_3 {
   /// Adds the images of a vertex of a segment, which may be one of its ends, on segments close by. On those that meet it only for one that is alone
   /// at work: to conform to needles takes like points; when that is done refinement puts its own wherever it needs them, which images only add to.
   void add_on_segments(Vertex_handle v, Index segment, double radius) {
-    const auto add_image = [&](const Mirror_image& i) { add({v, i.on, out_of_ball(i.at), radius, true, i.inherits}); };
+    const auto add_image = [&](const Mirror_image& i) { add({v, i.on, i.at, radius, true, i.inherits}); };
     if (is_alone()) acute_.segment_wedges().for_each_image(segment, position(v), close * radius, add_image);
     acute_.gaps().for_each_image_on_segments(segment, position(v), radius, is_alone(), add_image);
   }
@@ -160,20 +159,14 @@ class Images_3 {
 
   template <class Found>
   void for_each_image(Index facet, const Vec_3& m, double radius, double distance, bool is_usual, const Found& found) const {
-    acute_.wedges().for_each_image(facet, m, radius, distance, is_usual, found);
+    acute_.wedges().for_each_image(facet, m, distance, is_usual, found);
     acute_.gaps().for_each_image_on_facets(facet, m, radius, is_alone(), found);
   }
 
   auto add_on_facet(Vertex_handle v, double radius, bool is_usual) {
     return [this, v, radius, is_usual](const Mirror_image& i) {
-      if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.on_plane(i.on.index, out_of_ball(i.at)), radius, is_usual, i.inherits});
+      if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.on_plane(i.on.index, i.at), radius, is_usual, i.inherits});
     };
-  }
-
-  /// What is on the sphere of a protected ball has its image there, too: like places are a little off, by chance to the inside.
-  Vec_3 out_of_ball(const Vec_3& at) const {
-    const Index v = acute_.balls().find(at);
-    return v == Protected_balls_3::none ? at : acute_.balls().on_sphere(v, at);
   }
 
   std::uint32_t cavity_subsegment_at(const Image& i, const Cavity_features_3<Tr>& cavity) const {
