@@ -101,6 +101,7 @@ class Mesher_3 {
       optimize(criteria);
       lap("optimization");
     }
+    mesh_.triangulation().restore_infinite_cell(on_hull);
     if (parameters_.verify && !mesh_.triangulation().is_valid())
       throw std::logic_error("the refined triangulation is not a valid Delaunay triangulation");
     if (parameters_.verify) lap("verification");

@@ -22,6 +22,7 @@
 #include <pgdr/quality/mesh_quality.h>
 
 #include "catch.h"
+#include "domain/shapes.h"
 #include "inputs.h"
 #include "refinement/refined.h"
 #include "seeded_random.h"
@@ -197,6 +198,20 @@ TEST_CASE("Shapes with features of all kinds stay conforming when slivers are re
     const pgdr::Mesh_quality after = pgdr::mesh_quality(arrays);
     CHECK(after.tetrahedra_below[1] <= before.tetrahedra_below[1] / 10);
     CHECK(failures(pgdr::check_mesh(arrays, &mesh.domain())) == "");
+  }
+}
+
+TEST_CASE("The infinite vertex knows one of its tetrahedra when slivers are removed", "[slivers]") {
+  pgdr::Plc plc = pgdr_test::box({0, 6, 1}, {7, 7, 15});
+  plc.segments.push_back({0, 6, 0});  // across a side
+  for (const int rounds : {0, 2}) {
+    pgdr::Parameters parameters;
+    parameters.optimization_rounds = static_cast<std::size_t>(rounds);
+    parameters.verify = true;
+    const Mesh mesh = refined(plc, any_size, parameters);
+    const auto infinite = mesh.triangulation().infinite_vertex();
+    CHECK(mesh.triangulation().tds().is_cell(infinite->cell()));
+    CHECK(infinite->cell()->has_vertex(infinite));
   }
 }
 

@@ -106,8 +106,9 @@ class Volumes_3 {
         const Vec_3 a = soup_.crossing(source, target, ray.hits[i].triangle);
         const Vec_3 b = soup_.crossing(source, target, ray.hits[i + 1].triangle);
         const Vec_3 point = 0.5 * (a + b);
-        if (length(b - a) <= longest || locate({point.x, point.y, point.z}) != volume) continue;
-        longest = length(b - a);
+        const double chord = length(b - a);  // not a number, or infinite, beside triangles that are flat but for rounding
+        if (!(chord > longest) || !std::isfinite(chord) || locate({point.x, point.y, point.z}) != volume) continue;
+        longest = chord;
         best = point;
       }
     }
