@@ -525,20 +525,20 @@ class Feature_refiner_3 {
 
   /// Puts an image on its feature, or sends an errand there. Not where the feature is not, or has a vertex as near as v itself
   /// is, or subsegments are in the way.
-  void put_image(const Image& i) {
+  void put_image(Image i) {
     if (i.on.dimension == 1) return put_on_segment(i);
-    if (!find_cavity(i)) return;
+    const std::uint32_t at = find_place(i);
+    if (at == Complex::none) return;
     const Point p(i.at.x, i.at.y, i.at.z);
-    const std::uint32_t at = images_.subfacet_at(i, p, features_, queues_.subfacets);
     const double near = 0.5 * std::min(i.radius, length(i.at - position(i.by)));
     const auto is_elsewhere = [&](Vertex_handle w) { return !complex_.is_on_facet(w, i.on.index); };
-    if (at == Complex::none || cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near ||
+    if (cavity_.squared_insertion_radius(i.at, is_elsewhere) < near * near ||
         spacing_.is_below_minimum(cavity_.squared_insertion_radius(i.at)))
       return cavity_.abandon();
     const std::vector<Piece_id> way = images_.in_the_way(i, p, near, features_, at);
     if (!way.empty()) return make_way(i, way);
     if (const Vertex_handle v = insert_on_facet(at, p, i.at, guard_of(i)); v != Vertex_handle()) {
-      images_.add_of(v, made_, i.is_usual);
+      images_.add_of(v, made_, i.is_usual, i.by);
     } else if (stars_[0].is_foreign()) {
       hand_on(i);
     }
@@ -556,6 +556,20 @@ class Feature_refiner_3 {
     if (outcome != Split_outcome::inserted || i.by != Vertex_handle()) return;
     for (const Vertex_handle v : complex_.subsegment(complex_.find_on_segment(i.on.index, i.at)).vertices)
       if (position(v) == i.at) v->set_crossing();
+  }
+
+  /// Finds the subfacet that holds an image, and the image's cavity, with the image moved onto it: on the plane of a bent facet it could be beyond
+  /// another facet. None, and no cavity, if there is none; or the image is handed on.
+  std::uint32_t find_place(Image& i) {
+    for (bool is_moved = false; find_cavity(i); is_moved = true) {
+      const std::uint32_t at = images_.subfacet_at(i, Point(i.at.x, i.at.y, i.at.z), features_, queues_.subfacets);
+      const Vec_3 q = at == Complex::none ? i.at : complex_.on_sheet(at, i.at);
+      if (at != Complex::none && (is_moved || q == i.at || !region_.contains(q))) return at;
+      cavity_.abandon();
+      if (at == Complex::none) break;
+      i.at = q;
+    }
+    return Complex::none;
   }
 
   /// Finds an image's cavity and the features on it. If that is elsewhere, the image is handed on.

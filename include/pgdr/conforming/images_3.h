@@ -49,13 +49,14 @@ class Images_3 {
   }
 
   /// Adds the images of v on features that are much closer to it than the vertices that it was inserted between.
-  /// `around` are subfacets at v, those of one facet one after the other.
-  void add_of(Vertex_handle v, const std::vector<std::uint32_t>& around, bool is_usual) {
+  /// `around` are subfacets at v, those of one facet one after the other. `by`: what v is the image of, if it is one. That has no images of images
+  /// beside it: bent facets meet in segments that are not on one line, and each of these would have a like place of its own for it, time after time.
+  void add_of(Vertex_handle v, const std::vector<std::uint32_t>& around, bool is_usual, Vertex_handle by = {}) {
     Index facet = Tr::Vertex::none;
     const double radius = v->insertion_radius();
     for (const std::uint32_t t : around)
       if (std::exchange(facet, complex_.subfacet(t).facet) != complex_.subfacet(t).facet)
-        for_each_image(facet, position(v), radius, (is_usual ? 0.5 : 1) * radius, is_usual, add_on_facet(v, radius, is_usual));
+        for_each_image(facet, position(v), radius, (is_usual ? 0.5 : 1) * radius, is_usual, add_on_facet(v, radius, is_usual, by));
     if (v->in_dimension() == 1) add_on_segments(v, v->index(), radius);
   }
 
@@ -163,9 +164,10 @@ class Images_3 {
     acute_.gaps().for_each_image_on_facets(facet, m, radius, is_alone(), found);
   }
 
-  auto add_on_facet(Vertex_handle v, double radius, bool is_usual) {
-    return [this, v, radius, is_usual](const Mirror_image& i) {
-      if (!complex_.is_on_facet(v, i.on.index)) add({v, i.on, complex_.on_plane(i.on.index, i.at), radius, is_usual, i.inherits});
+  auto add_on_facet(Vertex_handle v, double radius, bool is_usual, Vertex_handle by = {}) {
+    return [this, v, radius, is_usual, by](const Mirror_image& i) {
+      const auto is_on_it = [&](Vertex_handle w) { return w != Vertex_handle() && complex_.is_on_facet(w, i.on.index); };
+      if (!is_on_it(v) && !is_on_it(by)) add({v, i.on, complex_.on_plane(i.on.index, i.at), radius, is_usual, i.inherits});
     };
   }
 
