@@ -58,6 +58,13 @@ TEST_CASE("Segments of one acute corner are split at equal distances from it", "
   CHECK(first == Approx(1));
 }
 
+TEST_CASE("A segment's factor moves all of its shells but the smallest one", "[conforming]") {
+  const Vec_3 corner{1, 2, 3}, end{1, 2, 5};
+  const auto shell = [&](double smallest, double factor) { return pgdr::length(pgdr::subsegment_split_point(corner, end, true, false, smallest, factor) - corner); };
+  CHECK(shell(0.25, 1 - 1e-7) == Approx(1 - 1e-7).epsilon(1e-12));
+  CHECK(shell(1, 1 - 1e-7) == Approx(1).epsilon(1e-12));
+}
+
 TEST_CASE("Other subsegments are split at their midpoints", "[conforming]") {
   const Vec_3 a{1, 2, 3}, b{4, 0, -5};
   const Vec_3 m{2.5, 1, -1};

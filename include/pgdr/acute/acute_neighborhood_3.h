@@ -23,6 +23,7 @@
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mirrors/gaps_3.h>
+#include <pgdr/mirrors/shells_3.h>
 #include <pgdr/mirrors/wedges_3.h>
 
 namespace pgdr {
@@ -40,7 +41,7 @@ class Acute_neighborhood_3 {
 
   template <class K>
   explicit Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes = {})
-      : Acute_neighborhood_3(domain, std::move(sizes), domain_detail::Facet_edges(domain)) {}
+      : Acute_neighborhood_3(domain, std::move(sizes), domain_detail::Facet_edges(domain), small_angles_3(domain)) {}
   Acute_neighborhood_3(const Acute_neighborhood_3&) = delete;
   Acute_neighborhood_3& operator=(const Acute_neighborhood_3&) = delete;
 
@@ -51,6 +52,7 @@ class Acute_neighborhood_3 {
 
   const Facet_wedges_3& wedges() const { return wedges_; }
   const Segment_wedges_3& segment_wedges() const { return segment_wedges_; }
+  const Shells_3& shells() const { return shells_; }
   const Gaps_3& gaps() const { return gaps_; }
   const Protected_balls_3& balls() const { return *balls_; }
   const Narrow_angles_3& narrow() const { return *narrow_; }
@@ -102,9 +104,8 @@ class Acute_neighborhood_3 {
 
  private:
   template <class K>
-  Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes, const domain_detail::Facet_edges& edges)
-      : wedges_(domain, edges), segment_wedges_(domain, edges), gaps_(domain), sizes_(std::move(sizes)) {
-    const Small_angles angles = small_angles_3(domain);
+  Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes, const domain_detail::Facet_edges& edges, const Small_angles& angles)
+      : wedges_(domain, edges), shells_(domain, angles), segment_wedges_(domain, edges, shells_), gaps_(domain), sizes_(std::move(sizes)) {
     smallest_dihedral_deg_ = angles.smallest_dihedral_deg;
     is_acute_vertex_.resize(domain.vertices.size(), false);
     list_small_angles(domain, angles);
@@ -189,6 +190,7 @@ class Acute_neighborhood_3 {
   }
 
   Facet_wedges_3 wedges_;
+  Shells_3 shells_;
   Segment_wedges_3 segment_wedges_;
   Gaps_3 gaps_;
   Size_bounds sizes_;

@@ -100,6 +100,12 @@ class Protected_balls_3 {
     return position_[v] + (radius_[v] / length(d)) * d;
   }
 
+  /// p, or if that is in a ball, the point of its sphere in the same direction: where features get a point instead.
+  Vec_3 outside(const Vec_3& p) const {
+    const Index v = find(p);
+    return v == none ? p : on_sphere(v, p);
+  }
+
   /// Whether no point of the segment from v to p is outside of v's ball.
   bool contains_segment(Index v, const Vec_3& p) const {
     return length(p - position_[v]) <= (1 + rounding) * radius_[v];

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <pgdr/acute/acute_neighborhood_3.h>
+#include <pgdr/acute/protected_balls_3.h>
 #include <pgdr/acute/split_spacing_3.h>
 #include <pgdr/conforming/cavity_features_3.h>
 #include <pgdr/conforming/cavity_search_3.h>
@@ -191,11 +192,15 @@ class Feature_refiner_3 {
 
   /// Splits a subfacet at its circumcenter, or the subsegment that this point encroaches or lies beyond.
   Split_outcome split_subfacet(std::uint32_t slot, Split_reason reason, const Split_guard& guard) {
-    const Split_outcome outcome = split_subfacet_at(slot, split_points_.of_subfacet(slot, reason), reason, guard, always);
-    if (reason != Split_reason::missing || outcome != Split_outcome::refused) return outcome;
-    // In a bent facet, the circumcenter of a flat one may be taken already. One that is missing has to be split all the same.
-    const auto [at, subsegment] = split_points_.on_longest_edge(slot);
-    return subsegment != Complex::none ? split_subsegment(subsegment, reason, guard) : split_subfacet_at(slot, at, reason, guard, always);
+    at_work_ = complex_.subfacet_id(slot);
+    Split_outcome outcome = split_subfacet_at(slot, split_points_.of_subfacet(slot, reason), reason, guard, always);
+    if (reason == Split_reason::missing && outcome == Split_outcome::refused) {
+      // In a bent facet, the circumcenter of a flat one may be taken already. One that is missing has to be split all the same.
+      const auto [at, subsegment] = split_points_.on_longest_edge(slot);
+      outcome = subsegment != Complex::none ? split_subsegment(subsegment, reason, guard) : split_subfacet_at(slot, at, reason, guard, always);
+    }
+    at_work_ = {};
+    return outcome;
   }
 
   /// Tetrahedra made since the last call, some of them gone again. The caller empties it.
@@ -295,7 +300,7 @@ class Feature_refiner_3 {
   Split_outcome split_flat(std::uint32_t slot, bool is_subsegment, const Vec_3& m, bool may_tear, const Good& is_good) {
     const auto accept = [&](std::uint32_t split, const Vec_3& at) {
       const bool is_allowed = !tears_others(split) || (may_tear && !encroaches_protected(complex_, features_, &acute_, Point(at.x, at.y, at.z)));
-      return is_allowed && is_good(std::as_const(cavity_), at);
+      return is_allowed && acute_.balls().find(at) == Protected_balls_3::none && is_good(std::as_const(cavity_), at);
     };
     return is_subsegment ? split_subsegment_at(slot, m, Split_reason::flat, {}, accept) : split_subfacet_at(slot, m, Split_reason::flat, {}, accept);
   }
@@ -562,7 +567,7 @@ class Feature_refiner_3 {
   /// another facet. None, and no cavity, if there is none; or the image is handed on.
   std::uint32_t find_place(Image& i) {
     for (bool is_moved = false; find_cavity(i); is_moved = true) {
-      const std::uint32_t at = images_.subfacet_at(i, Point(i.at.x, i.at.y, i.at.z), features_, queues_.subfacets);
+      const std::uint32_t at = images_.subfacet_at(i, Point(i.at.x, i.at.y, i.at.z), features_, at_work_, queues_.subfacets);
       const Vec_3 q = at == Complex::none ? i.at : complex_.on_sheet(at, i.at);
       if (at != Complex::none && (is_moved || q == i.at || !region_.contains(q))) return at;
       cavity_.abandon();
@@ -701,6 +706,7 @@ class Feature_refiner_3 {
   bool met_minimum_ = false;
   std::vector<Cell_id> fresh_cells_;
   std::vector<Cell_id> unlabelled_cells_;
+  Piece_id at_work_;   ///< the subfacet that is being split: if it is missing it waits no more, but images belong on it as well
   Piece_id last_way_;  ///< the subsegment that was split, or refused, in the place of a subfacet, within the same task
   std::size_t inserted_ = 0;
   bool keep_fresh_ = false;

@@ -68,7 +68,7 @@ class Images_3 {
   /// Adds the images of a vertex of a segment, which may be one of its ends, on segments close by. On those that meet it only for one that is alone
   /// at work: to conform to needles takes like points; when that is done refinement puts its own wherever it needs them, which images only add to.
   void add_on_segments(Vertex_handle v, Index segment, double radius) {
-    const auto add_image = [&](const Mirror_image& i) { add({v, i.on, i.at, radius, true, i.inherits}); };
+    const auto add_image = [&](const Mirror_image& i) { add({v, i.on, acute_.balls().outside(i.at), radius, true, i.inherits}); };
     if (is_alone()) acute_.segment_wedges().for_each_image(segment, position(v), close * radius, add_image);
     acute_.gaps().for_each_image_on_segments(segment, position(v), radius, is_alone(), add_image);
   }
@@ -105,8 +105,8 @@ class Images_3 {
   /// Whether it was told of all subfacets.
   bool is_alone() const { return !some_subfacet_.empty(); }
 
-  /// The subfacet that holds an image's point p: one of those on p's cavity, or a missing one that waits. None if there is none.
-  std::uint32_t subfacet_at(const Image& i, const Point& p, const Cavity_features_3<Tr>& cavity,
+  /// The subfacet that holds an image's point p: one of those on p's cavity, or a missing one that is at work, or waits. None if there is none.
+  std::uint32_t subfacet_at(const Image& i, const Point& p, const Cavity_features_3<Tr>& cavity, const Piece_id& at_work,
                             const Fifo<Feature_request>& waiting) const {
     const auto holds = [&](std::uint32_t t) {
       return complex_.subfacet(t).facet == i.on.index && is_in_subfacet(complex_, complex_.subfacet(t), p);
@@ -117,6 +117,7 @@ class Images_3 {
       const Sheet_place at = walk_in_sheet(complex_, some_subfacet_[i.on.index], p);
       return at.subsegment == Complex::none ? at.subfacet : Complex::none;
     }
+    if (at_work.slot != Complex::none && complex_.is_live_subfacet(at_work) && holds(at_work.slot)) return at_work.slot;
     for (const Feature_request& r : waiting)
       if (r.reason == Split_reason::missing && complex_.is_live_subfacet(r.piece) && holds(r.piece.slot))
         return r.piece.slot;
@@ -160,14 +161,14 @@ class Images_3 {
 
   template <class Found>
   void for_each_image(Index facet, const Vec_3& m, double radius, double distance, bool is_usual, const Found& found) const {
-    acute_.wedges().for_each_image(facet, m, distance, is_usual, found);
+    acute_.wedges().for_each_image(facet, m, radius, distance, is_usual, found);
     acute_.gaps().for_each_image_on_facets(facet, m, radius, is_alone(), found);
   }
 
   auto add_on_facet(Vertex_handle v, double radius, bool is_usual, Vertex_handle by = {}) {
     return [this, v, radius, is_usual, by](const Mirror_image& i) {
       const auto is_on_it = [&](Vertex_handle w) { return w != Vertex_handle() && complex_.is_on_facet(w, i.on.index); };
-      if (!is_on_it(v) && !is_on_it(by)) add({v, i.on, complex_.on_plane(i.on.index, i.at), radius, is_usual, i.inherits});
+      if (!is_on_it(v) && !is_on_it(by)) add({v, i.on, complex_.on_plane(i.on.index, acute_.balls().outside(i.at)), radius, is_usual, i.inherits});
     };
   }
 

@@ -26,15 +26,18 @@ class Split_points_3 {
 
   Split_points_3(const Complex& complex, const Acute_neighborhood_3& acute) : complex_(complex), acute_(acute) {}
 
-  /// Whether subsegments at v are split at distances that are powers of two: where segments meet at a small angle, or cross each other across a gap.
+  /// Whether subsegments at v are split on shells: where segments meet at a small angle, or cross each other across a gap.
   bool is_acute(Vertex_handle v) const { return has_ball(v) || v->is_crossing(); }
 
   Vec_3 of_subsegment(std::uint32_t slot) const {
     const auto& ends = complex_.subsegment(slot).vertices;
-    double shell = 0;
+    double shell = 0, factor = 1;
     for (const Vertex_handle end : ends)
-      if (has_ball(end)) shell = acute_.balls().radius(end->index());
-    return subsegment_split_point(position(ends[0]), position(ends[1]), is_acute(ends[0]), is_acute(ends[1]), shell);
+      if (has_ball(end)) {
+        shell = acute_.balls().radius(end->index());
+        factor = acute_.shells().factor(complex_.subsegment(slot).segment, end->index());
+      }
+    return subsegment_split_point(position(ends[0]), position(ends[1]), is_acute(ends[0]), is_acute(ends[1]), shell, factor);
   }
 
   Vec_3 of_subfacet(std::uint32_t slot, Split_reason reason) const {

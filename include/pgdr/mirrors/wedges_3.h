@@ -14,6 +14,7 @@
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mirrors/mirror_image.h>
+#include <pgdr/mirrors/shells_3.h>
 
 namespace pgdr {
 
@@ -21,14 +22,15 @@ namespace pgdr {
 ///
 /// A vertex of one of them may lie in the diametral ball of a subsegment of the other, however short that is, unless both have vertices at
 /// like distances from the corner. Then none does: with unit vectors u and v along the two, a vertex d v and a subsegment from a u to b u,
-/// (d v - a u)(d v - b u) = d^2 - d (a + b) uv + ab >= (d - a)(d - b), which is negative only if d is between a and b.
+/// (d v - a u)(d v - b u) = (d - a)(d - b) + d (a + b)(1 - uv), of which the first part is negative only if d is between a and b. So
+/// distances need not be equal: they may differ by a factor of 1 - uv, and do (`Shells_3`).
 class Segment_wedges_3 {
  public:
   /// No triangle in a narrower corner has the bound of 2.
   static constexpr double limit = Small_angles::critical_plane_angle_deg;
 
   template <class K>
-  Segment_wedges_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges) : of_segment_(domain.segments.size()) {
+  Segment_wedges_3(const Domain_3<K>& domain, const domain_detail::Facet_edges& edges, const Shells_3& shells) : of_segment_(domain.segments.size()) {
     std::vector<Vec_3> points;
     for (const auto& p : domain.vertices) points.push_back(to_vec(p));
     const auto segment = [&](Index facet, Index a, Index b) {
@@ -42,8 +44,9 @@ class Segment_wedges_3 {
       const Vec_3 u = domain_detail::normalized(points[a] - origin), v = domain_detail::normalized(points[b] - origin);
       const Index s = segment(corner.facet, corner.vertex, a), t = segment(corner.facet, corner.vertex, b);
       const double chord = length(u - v);
-      of_segment_[s].push_back({t, origin, v, length(points[b] - origin), chord});
-      of_segment_[t].push_back({s, origin, u, length(points[a] - origin), chord});
+      const double of_s = shells.factor(s, corner.vertex), of_t = shells.factor(t, corner.vertex);
+      of_segment_[s].push_back({t, origin, v, length(points[b] - origin), chord, of_t / of_s});
+      of_segment_[t].push_back({s, origin, u, length(points[a] - origin), chord, of_s / of_t});
     }
   }
 
@@ -52,7 +55,7 @@ class Segment_wedges_3 {
   void for_each_image(Index segment, const Vec_3& m, double distance, const Found& found) const {
     for (const Wedge& w : of_segment_[segment]) {
       const double d = length(m - w.origin);
-      if (0 < d && d < w.length && w.chord * d <= distance) found(Mirror_image{{1, w.other}, w.origin + d * w.along});
+      if (0 < d && d < w.length && w.chord * d <= distance) found(Mirror_image{{1, w.other}, w.origin + w.factor * d * w.along});
     }
   }
 
@@ -62,6 +65,7 @@ class Segment_wedges_3 {
     Vec_3 origin, along;  ///< the corner, and the unit vector from there along the other segment
     double length;        ///< of the other segment
     double chord;         ///< distance between a point and its image, in units of theirs from the corner
+    double factor;        ///< between their shells
   };
   std::vector<std::vector<Wedge>> of_segment_;
 };
@@ -73,6 +77,11 @@ class Segment_wedges_3 {
 /// center of the ball at height k, and phi the angle; |q - c|^2 = |q' - c|^2 + 2 h k (1 - cos phi), and |q' - c| is at least
 /// the radius if the subfacet is Delaunay in its facet. (The argument of the collars of A. Rand and N. Walkington, *Collars
 /// and intestines: practical conforming Delaunay refinement*, IMR 2009, here for whatever points there are.)
+///
+/// Two vertices and their exact images are cocircular. So images are beside the like places (`aslant`), by e, say. Then |q' - c| >= r - e, with r the
+/// radius, and the lemma holds while e r <= h k (1 - cos phi). A vertex is g from its image, g^2 = 2 h^2 (1 - cos phi), and e is g^2 / (8 R) at most, with R
+/// its insertion radius: enough where k / r >= h / (4 R), that is, for all balls but those whose centers are close to the segment. These may be encroached,
+/// by a millionth of h at most.
 class Facet_wedges_3 {
  public:
   static constexpr double limit = 60;
@@ -91,33 +100,41 @@ class Facet_wedges_3 {
           const Vec_3 u = normalized(inward(domain, f, along)), v = normalized(inward(domain, g, along));
           const double angle = angle_deg(u, v);
           if (f.facet != g.facet && angle < limit)
-            of_facet_[f.facet].push_back(
-                {g.facet, origin, along, u, v, length(u - v), angle < usual_limit});
+            of_facet_[f.facet].push_back({g.facet, origin, along, u, v, beside(along, u, v), length(u - v), angle < usual_limit});
         }
     }
   }
 
-  /// Calls `found` with each image of m, a point in the plane of the facet, that is within `distance` of it. Images may be next
+  /// Calls `found` with each image of m, a point in the plane of the facet with this insertion radius, that is within `distance` of it. Images may be next
   /// to the other facet instead of on it, but are in its bounding box, which says a lot of a strip. `is_usual`: only where the facets
   /// meet at less than `usual_limit`.
   template <class Found>
-  void for_each_image(Index facet, const Vec_3& m, double distance, bool is_usual, const Found& found) const {
+  void for_each_image(Index facet, const Vec_3& m, double radius, double distance, bool is_usual, const Found& found) const {
     for (const Wedge& w : of_facet_[facet]) {
       if (is_usual && !w.is_usual) continue;
       const double t = dot(m - w.origin, w.along) / dot(w.along, w.along);
       const Vec_3 foot = w.origin + t * w.along;
       const double h = dot(m - foot, w.inward);
-      if (h <= 0 || w.chord * h > distance) continue;
-      const Vec_3 at = foot + h * w.other_inward;
+      const double gap = w.chord * h;
+      if (h <= 0 || gap > distance) continue;
+      const Vec_3 at = foot + h * w.other_inward + std::min(gap * gap / (8 * radius), share_off * h) * w.beside;
       if (boxes_[w.other].contains_closed(at)) found(Mirror_image{{2, w.other}, at});
     }
   }
 
  private:
+  /// In which direction images in the second facet are beside like places, and against which those in the first one. Neither along the segment nor away from it:
+  /// two vertices at a right angle to it would be cocircular with their images.
+  static Vec_3 beside(const Vec_3& along, const Vec_3& u, const Vec_3& v) {
+    const double sign = dot(v - u, aslant) < 0 ? -1 : 1;
+    return sign * ((dot(along, aslant) < 0 ? -0.85 : 0.85) * domain_detail::normalized(along) + 0.53 * v);
+  }
+
   struct Wedge {
     Index other;
     Vec_3 origin, along;         ///< the segment: a vertex, and from there to the other one
     Vec_3 inward, other_inward;  ///< unit vectors from the segment into the two facets
+    Vec_3 beside;                ///< a unit vector from like places to images
     double chord;                ///< distance between a point and its image, in units of their height
     bool is_usual;
   };
