@@ -242,16 +242,30 @@ Sizes_near_surface parse_sizes_near_surface(const std::string& text) {
   return {c[0], c[1], c[2]};
 }
 
-void require_extension(const std::string& option, const std::filesystem::path& path,
-                       const std::vector<std::string>& extensions) {
+namespace {
+
+bool ends_in(const std::filesystem::path& path, const std::vector<std::string>& extensions) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  std::string known;
-  for (const std::string& e : extensions) {
-    if (extension == e) return;
-    known += (known.empty() ? "" : " or ") + e;
-  }
-  throw Usage_error(option + ": '" + path.string() + "' does not end in " + known);
+  return std::ranges::find(extensions, extension) != extensions.end();
+}
+
+std::string alternatives(const std::vector<std::string>& extensions) {
+  std::string all;
+  for (const std::string& e : extensions) all += (all.empty() ? "" : " or ") + e;
+  return all;
+}
+
+}  // namespace
+
+void require_extension(const std::string& option, const std::filesystem::path& path,
+                       const std::vector<std::string>& extensions) {
+  if (!ends_in(path, extensions)) throw Usage_error(option + ": '" + path.string() + "' does not end in " + alternatives(extensions));
+}
+
+void require_one_of_format(const std::string& option, const std::vector<std::string>& files, const std::vector<std::string>& extensions) {
+  if (std::ranges::none_of(files, [&](const std::string& file) { return ends_in(file, extensions); }))
+    throw Usage_error(option + " goes with a file that ends in " + alternatives(extensions));
 }
 
 void require_distinct_files(const std::vector<std::filesystem::path>& inputs,

@@ -101,6 +101,9 @@ Sizes_near_surface parse_sizes_near_surface(const std::string& text);
 void require_extension(const std::string& option, const std::filesystem::path& path,
                        const std::vector<std::string>& extensions);
 
+/// Throws `Usage_error` unless one of `files` ends in one of `extensions`, without which the option would do nothing.
+void require_one_of_format(const std::string& option, const std::vector<std::string>& files, const std::vector<std::string>& extensions);
+
 /// Throws `Usage_error` if two of `outputs` are one file, or one of them is one of `inputs`.
 void require_distinct_files(const std::vector<std::filesystem::path>& inputs,
                             const std::vector<std::filesystem::path>& outputs);

@@ -57,10 +57,10 @@ struct Mesh_arguments {
   std::string radius_edge_ratio;
   std::string placement;
   std::string order = "1";
-  std::string gmsh_format = "4.1";
+  std::string gmsh_format;
   bool vtu_triangles = false;
   bool outer_triangles = false;
-  std::string vtu_compression = "1";
+  std::string vtu_compression;
   std::string min_dihedral;
   std::string optimize;
   std::string min_edge_length;
@@ -187,9 +187,9 @@ Parameters parameters(const Mesh_arguments& arguments) {
 
 Write_options write_options(const Mesh_arguments& arguments) {
   Write_options options;
-  options.gmsh = parse_gmsh_format(arguments.gmsh_format);
+  if (!arguments.gmsh_format.empty()) options.gmsh = parse_gmsh_format(arguments.gmsh_format);
   options.vtu.triangles = arguments.vtu_triangles;
-  options.vtu.compression = static_cast<int>(parse_count_or_none("--vtu-compression", arguments.vtu_compression));
+  if (!arguments.vtu_compression.empty()) options.vtu.compression = static_cast<int>(parse_count_or_none("--vtu-compression", arguments.vtu_compression));
   if (options.vtu.compression > 9) throw Usage_error("--vtu-compression must be at most 9, not " + arguments.vtu_compression);
   return options;
 }
@@ -200,6 +200,9 @@ void check_outputs(const Mesh_arguments& arguments) {
   const int order = parse_order(arguments.order);
   for (const std::string& output : arguments.outputs) require_extension("--order 2", output, mesh_extensions(order));
   write_options(arguments);
+  if (!arguments.gmsh_format.empty()) require_one_of_format("--gmsh-format", arguments.outputs, {".msh"});
+  if (arguments.vtu_triangles) require_one_of_format("--vtu-triangles", arguments.outputs, {".vtu"});
+  if (!arguments.vtu_compression.empty()) require_one_of_format("--vtu-compression", arguments.outputs, {".vtu"});
   std::vector<std::filesystem::path> files;
   for (const std::string& output : arguments.outputs)
     for (auto& file : mesh_files(output)) files.push_back(std::move(file));

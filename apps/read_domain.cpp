@@ -124,6 +124,7 @@ double bounding_diagonal(const std::vector<Plc>& parts) {
 
 /// What is in the files, repaired if it shall be, or if there are several.
 Plc repaired_input(const std::vector<std::string>& files, const Domain_options& options, Repair_report& report) {
+  if (options.markers_from == "colors") require_one_of_format("--markers-from colors", files, {".off", ".ply"});
   std::vector<Plc> parts;
   for (const std::string& file : files) parts.push_back(normalized(read_plc(file, source_of_markers(options))));
   if (!options.repair && parts.size() == 1) return std::move(parts[0]);

@@ -90,6 +90,10 @@ TEST_CASE("outputs that make no sense", "[apps]") {
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu -o ./out.vtu", 2, {"out.vtu", "twice"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.ele -o out.ele", 2, {"out.ele", "twice"});
   check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.msh --gmsh-format 3", 2, {"--gmsh-format", "4.1-ascii", "'3'"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.vtu --gmsh-format 2.2", 2, {"--gmsh-format", ".msh"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.msh -o out.mesh --vtu-triangles", 2, {"--vtu-triangles", ".vtu"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.msh --vtu-compression 9", 2, {"--vtu-compression", ".vtu"});
+  check_fails(sandbox, "mesh " + shape("cube.poly") + " -o out.msh --markers-from colors", 2, {"--markers-from colors", ".off or .ply"});
   check_fails(sandbox, "info " + shape("cube.poly") + " --write-plc out.off", 2, {"out.off", ".poly"});
   check_fails(sandbox, "check out.vtu", 2, {"out.vtu", ".mesh"});
 
