@@ -11,6 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <pgdr/report/format.h>
+
 namespace pgdr::app {
 
 namespace {
@@ -250,22 +252,16 @@ bool ends_in(const std::filesystem::path& path, const std::vector<std::string>& 
   return std::ranges::find(extensions, extension) != extensions.end();
 }
 
-std::string alternatives(const std::vector<std::string>& extensions) {
-  std::string all;
-  for (const std::string& e : extensions) all += (all.empty() ? "" : " or ") + e;
-  return all;
-}
-
 }  // namespace
 
 void require_extension(const std::string& option, const std::filesystem::path& path,
                        const std::vector<std::string>& extensions) {
-  if (!ends_in(path, extensions)) throw Usage_error(option + ": '" + path.string() + "' does not end in " + alternatives(extensions));
+  if (!ends_in(path, extensions)) throw Usage_error(option + ": '" + path.string() + "' does not end in " + joined(extensions, " or "));
 }
 
 void require_one_of_format(const std::string& option, const std::vector<std::string>& files, const std::vector<std::string>& extensions) {
   if (std::ranges::none_of(files, [&](const std::string& file) { return ends_in(file, extensions); }))
-    throw Usage_error(option + " goes with a file that ends in " + alternatives(extensions));
+    throw Usage_error(option + " goes with a file that ends in " + joined(extensions, " or "));
 }
 
 void require_distinct_files(const std::vector<std::filesystem::path>& inputs,

@@ -245,8 +245,7 @@ void find_facets_of_files(Indexed_mesh_3& mesh, const Mesh_arguments& arguments)
 
 /// Names of regions that have no tetrahedra, with a warning: of a part of an assembly that lies in others, or by a mistake.
 void drop_empty_regions(Reference_names& names, const std::map<std::int32_t, double>& volumes) {
-  std::string known;
-  for (const auto& [id, volume] : volumes) known += (known.empty() ? "" : ", ") + std::to_string(id);
+  const std::string known = joined(volumes, ", ", [](const auto& volume) { return std::to_string(volume.first); });
   std::erase_if(names.regions, [&](const auto& region) {
     if (volumes.contains(region.first)) return false;
     print_message("warning: region " + std::to_string(region.first) + ", '" + region.second + "', has no tetrahedra; regions are " + known);
@@ -278,7 +277,7 @@ int run_mesh(const Mesh_arguments& arguments) {
 
   Phase_timer timer;
   Progress_line progress(!arguments.quiet, &Interrupt_guard::flag());
-  progress.show("reading " + names_of(arguments.inputs));
+  progress.show("reading " + joined(arguments.inputs));
   std::optional<Domain> domain;
   std::vector<Input_problem> problems;  // that it can be meshed in spite of
   Run_summary run;
@@ -365,14 +364,13 @@ int run_mesh(const Mesh_arguments& arguments) {
   if (!arguments.trace.empty()) write_trace(run.schedule, arguments.trace);
   if (!arguments.report.empty() && is_usable) {
     progress.show("writing " + arguments.report);
-    std::string title;
-    for (const std::string& input : arguments.inputs) title += (title.empty() ? "" : ", ") + std::filesystem::path(input).filename().string();
+    const std::string title = joined(arguments.inputs, ", ", [](const std::string& input) { return std::filesystem::path(input).filename().string(); });
     write_report(mesh, {title, "meshed by pgdr " PGDR_VERSION, input_rows(*domain, problems, run), p.radius_edge_ratio, &run, &record}, arguments.report);
     progress.erase();
   }
   if (!arguments.quiet && arguments.stats != "-") print_summary(std::cout, run);
   if (run.stop == Stop_reason::finished && !is_usable) {
-    print_message(names_of(arguments.inputs) + " encloses nothing that is not a hole: there are no tetrahedra, and nothing was written");
+    print_message(joined(arguments.inputs) + " encloses nothing that is not a hole: there are no tetrahedra, and nothing was written");
     return exit_bad_input;
   }
   if (run.stop == Stop_reason::finished) return exit_done;

@@ -144,12 +144,6 @@ std::vector<std::filesystem::path> files_of(const std::vector<std::string>& inpu
   return files;
 }
 
-std::string names_of(const std::vector<std::string>& files) {
-  std::string names;
-  for (const std::string& file : files) names += (names.empty() ? "" : ", ") + file;
-  return names;
-}
-
 Input read_input(const std::vector<std::string>& files, const Domain_options& options) {
   Input input;
   Plc plc = repaired_input(files, options, input.repair);

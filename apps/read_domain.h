@@ -70,9 +70,6 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
 /// All files that are read for these.
 std::vector<std::filesystem::path> files_of(const std::vector<std::string>& inputs);
 
-/// Files as they are named in messages.
-std::string names_of(const std::vector<std::string>& files);
-
 /// How many intersecting pairs to list: those that fit on a screen, or all for a file.
 inline std::size_t pairs_to_list(const std::string& problem_file = {}) {
   return problem_file.empty() ? 10 : std::numeric_limits<std::size_t>::max();

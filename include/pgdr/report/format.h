@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <iterator>
 #include <string>
+#include <utility>
 
 namespace pgdr {
 
@@ -34,6 +36,18 @@ inline std::string fixed(double value, int digits = 2) {
 /// "3 tetrahedra", "1 tetrahedron".
 inline std::string counted(std::uint64_t count, const std::string& one, const std::string& many) {
   return with_separators(count) + " " + (count == 1 ? one : many);
+}
+
+/// "a, b, c": the texts of items, with something in between.
+template <class Range, class Text = std::identity>
+std::string joined(const Range& items, const std::string& between = ", ", Text text = {}) {
+  std::string all;
+  bool is_first = true;
+  for (const auto& item : items) {
+    if (!std::exchange(is_first, false)) all += between;
+    all += text(item);
+  }
+  return all;
 }
 
 /// "517 MiB": binary units, three significant digits.
