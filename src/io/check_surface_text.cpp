@@ -188,6 +188,9 @@ Checked_surface check_binary_stl(std::string_view text, const std::filesystem::p
   result.facets = little_endian_32(text, stl_header);
   const std::size_t room = (text.size() - stl_header - 4) / stl_triangle;
   if (room < result.facets) {
+    const auto is_text = [](char c) { return (' ' <= c && c <= '~') || c == '\n' || c == '\r' || c == '\t'; };
+    if (std::ranges::all_of(text.substr(0, stl_header + 4), is_text))
+      fail_at(path, 0, Kind::unreadable, "the file is text, but does not begin with 'solid' as STL files that are text do");
     fail_at(path, 0, Kind::unreadable,
             "the file announces " + std::to_string(result.facets) + " triangles, but ends after " +
                 std::to_string(room));

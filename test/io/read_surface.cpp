@@ -298,6 +298,7 @@ TEST_CASE("stl: errors") {
           {"solid x\nvertex 0 0 0\n", Kind::unreadable, "line 2"},
           {"just text", Kind::unreadable, "header of a binary STL"},
           {binary.substr(0, 83), Kind::unreadable, "header"},
+          {std::string(50, 'v') + " 0 0 1\n" + std::string(50, '2'), Kind::unreadable, "does not begin with 'solid'"},
           {binary.substr(0, binary.size() - 1), Kind::unreadable, "announces 1 triangles, but ends after 0"},
           {binary_stl({}, "x"), Kind::empty, "empty"},
           {binary_stl({{0, 0, 0, 1, 0, nan, 0, 1, 0}}, "x"), Kind::bad_coordinate, "triangle 0"},
