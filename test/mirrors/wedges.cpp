@@ -145,7 +145,8 @@ TEST_CASE("A mirror image is about as high over the segment, and no nearer to a 
       ++found;
       const Vec_3 like{h * std::cos(phi), h * std::sin(phi), q.z};
       const double aside = pgdr::length(i.at - like);
-      CHECK(aside == Approx(std::min(gap * gap / (8 * radius), 1e-7 * h)).epsilon(0.01).margin(1e-15));
+      const double along = std::abs(pgdr::dot(Vec_3{std::cos(phi) - 1, std::sin(phi), 0}, pgdr::aslant));
+      CHECK(aside == Approx(std::min(gap * gap / (8 * radius), 1e-6 * along * h)).epsilon(0.01).margin(1e-15));
       CHECK(pgdr::dot(i.at, Vec_3{std::sin(phi), -std::cos(phi), 0}) == Approx(0).margin(1e-12));
       // The center of a ball with i.at outside that is on facet 1, no larger than height above the segment and insertion radius allow.
       const double height = random.between(0, 2);
@@ -173,6 +174,27 @@ TEST_CASE("A mirror image is about as high over the segment, and no nearer to a 
   CHECK(near > 100);
   CHECK(near < 400);
   CHECK(balls > 50);
+}
+
+TEST_CASE("Images of one vertex in several facets around a segment are not at like places", "[conforming]") {
+  Plc plc;
+  plc.vertices = {{0, 0, 0}, {0, 0, 1}};
+  for (const double degrees : {0, 8, 17, 25}) {
+    plc.vertices.emplace_back(std::cos(degrees * std::numbers::pi / 180), std::sin(degrees * std::numbers::pi / 180), 0.5);
+    plc.facets.emplace_back().polygons = {{0, 1, static_cast<pgdr::Index>(plc.vertices.size() - 1)}};
+  }
+  const auto domain = pgdr::make_domain_3(plc);
+  const pgdr::Facet_wedges_3 wedges(domain, pgdr::domain_detail::Facet_edges(domain));
+  const Vec_3 q{0.3, 0, 0.5};
+  std::vector<Vec_3> places{q};  // height, 0, along the segment
+  wedges.for_each_image(0, q, 0.5, 1, true, [&](const pgdr::Mirror_image& i) { places.push_back({std::hypot(i.at.x, i.at.y), 0, i.at.z}); });
+  REQUIRE(places.size() == 4);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      CAPTURE(i, j);
+      CHECK(pgdr::length(places[i] - places[j]) > 1e-9);
+      CHECK(pgdr::length(places[i] - places[j]) < 1e-6);
+    }
 }
 
 TEST_CASE("Points at like places make no tetrahedron that is flat but for rounding", "[conforming]") {

@@ -77,7 +77,7 @@ TEST_CASE("A run that is cancelled while slivers at features are removed ends, w
       on_features += is_removing && v.dimension < 3;
       cancel = cancel || on_features >= after;
     };
-    const Mesh mesh = refined(pgdr::read_plc(data_file("../test/corpus/fan_141.poly")),
+    const Mesh mesh = refined(pgdr::read_plc(data_file("../test/corpus/needle_121.poly")),
                               std::numeric_limits<double>::infinity(), parameters);
     CHECK(on_features >= after);
     CHECK(mesh.statistics().stop == pgdr::Stop_reason::cancelled);

@@ -24,9 +24,6 @@ struct Mirror_image {
 /// tetrahedra as flat as rounding is between them; what they are off by depends on directions alone, not on numbers, and is the same on both sides of a gap.
 inline constexpr Vec_3 aslant{0.35, 0.57, 0.74};
 
-/// How much like places are off, of their distance from where the features meet: far more than rounding, and less than gaps are wide. Table in docs/robustness.md.
-inline constexpr double share_off = 1e-7;
-
 /// The bounding boxes of all facets, with the tolerance within which their vertices are off their planes.
 template <class K>
 std::vector<Region_3> facet_boxes(const Domain_3<K>& domain) {

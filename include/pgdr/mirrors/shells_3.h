@@ -24,6 +24,8 @@ class Shells_3 {
  public:
   /// At wider angles, in degrees, what is flat is removed as other slivers are.
   static constexpr double limit = Small_angles::critical_plane_angle_deg;
+  /// By how much shells are off at most, of their radius: far more than rounding, and less than gaps are wide. Table in docs/robustness.md.
+  static constexpr double share = 1e-7;
 
   template <class K>
   Shells_3(const Domain_3<K>& domain, const Small_angles& angles) {
@@ -33,7 +35,7 @@ class Shells_3 {
       for (std::size_t k = 0; k < 2; ++k) {
         const Vec_3 along = to_vec(domain.vertices[s.vertices[1 - k]]) - to_vec(domain.vertices[s.vertices[k]]);
         const double degrees = angles.vertex_deg[s.vertices[k]];
-        const double most = degrees < limit ? std::min(degrees * std::numbers::pi / 180 / 8, share_off) : 0;
+        const double most = degrees < limit ? std::min(degrees * std::numbers::pi / 180 / 8, share) : 0;
         factors[k] = 1 - most * (1 + dot(along, aslant) / length(along)) / 2;
       }
     }

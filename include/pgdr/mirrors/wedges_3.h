@@ -81,7 +81,7 @@ class Segment_wedges_3 {
 /// Two vertices and their exact images are cocircular. So images are beside the like places (`aslant`), by e, say. Then |q' - c| >= r - e, with r the
 /// radius, and the lemma holds while e r <= h k (1 - cos phi). A vertex is g from its image, g^2 = 2 h^2 (1 - cos phi), and e is g^2 / (8 R) at most, with R
 /// its insertion radius: enough where k / r >= h / (4 R), that is, for all balls but those whose centers are close to the segment. These may be encroached,
-/// by a millionth of h at most.
+/// by a millionth of g at most.
 class Facet_wedges_3 {
  public:
   static constexpr double limit = 60;
@@ -100,7 +100,7 @@ class Facet_wedges_3 {
           const Vec_3 u = normalized(inward(domain, f, along)), v = normalized(inward(domain, g, along));
           const double angle = angle_deg(u, v);
           if (f.facet != g.facet && angle < limit)
-            of_facet_[f.facet].push_back({g.facet, origin, along, u, v, beside(along, u, v), length(u - v), angle < usual_limit});
+            of_facet_[f.facet].push_back({g.facet, origin, along, u, v, beside(along, v), share * dot(v - u, aslant), length(u - v), angle < usual_limit});
         }
     }
   }
@@ -117,17 +117,20 @@ class Facet_wedges_3 {
       const double h = dot(m - foot, w.inward);
       const double gap = w.chord * h;
       if (h <= 0 || gap > distance) continue;
-      const Vec_3 at = foot + h * w.other_inward + std::min(gap * gap / (8 * radius), share_off * h) * w.beside;
+      const Vec_3 at = foot + h * w.other_inward + std::clamp(w.off * h, -gap * gap / (8 * radius), gap * gap / (8 * radius)) * w.beside;
       if (boxes_[w.other].contains_closed(at)) found(Mirror_image{{2, w.other}, at});
     }
   }
 
  private:
-  /// In which direction images in the second facet are beside like places, and against which those in the first one. Neither along the segment nor away from it:
-  /// two vertices at a right angle to it would be cocircular with their images.
-  static Vec_3 beside(const Vec_3& along, const Vec_3& u, const Vec_3& v) {
-    const double sign = dot(v - u, aslant) < 0 ? -1 : 1;
-    return sign * ((dot(along, aslant) < 0 ? -0.85 : 0.85) * domain_detail::normalized(along) + 0.53 * v);
+  /// How much images are off like places at most, of their distance from what they are images of: as much as that is along `aslant`. So it adds up
+  /// from facet to facet, and images of one vertex in two of them are not at like places either. Table in docs/robustness.md.
+  static constexpr double share = 1e-6;
+
+  /// In which direction images in a facet are beside like places. Neither along the segment nor away from it: two vertices at a right angle to it
+  /// would be cocircular with their images.
+  static Vec_3 beside(const Vec_3& along, const Vec_3& inward) {
+    return (dot(along, aslant) < 0 ? -0.85 : 0.85) * domain_detail::normalized(along) + 0.53 * inward;
   }
 
   struct Wedge {
@@ -135,6 +138,7 @@ class Facet_wedges_3 {
     Vec_3 origin, along;         ///< the segment: a vertex, and from there to the other one
     Vec_3 inward, other_inward;  ///< unit vectors from the segment into the two facets
     Vec_3 beside;                ///< a unit vector from like places to images
+    double off;                  ///< how far along that, in units of their height
     double chord;                ///< distance between a point and its image, in units of their height
     bool is_usual;
   };
