@@ -43,6 +43,10 @@ std::vector<Input_problem> open_groups(const Soup& soup, const std::vector<Index
   return problems;
 }
 
+void require_some(const auto& triangles) {
+  if (triangles.empty()) throw Input_error(Input_problem::Kind::open_surface, "the triangles enclose nothing");
+}
+
 /// Of the tolerance. What it bends is bent by as much, and planes are sought within the tolerance: with all of it, a printer's bed of 3,270 facets that can be made plane
 /// has 1,736.
 constexpr double part_for_wedges = 0.1;
@@ -76,6 +80,7 @@ Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_r
   close_cracks(soup, tolerance, report);
   orient_shells(soup, report);
   const std::vector<Hole> holes = fill_holes(soup, options.largest_hole / unit, report);
+  require_some(soup.triangles);
   if (parts.size() > 1)
     for (Triangle& t : soup.triangles)
       if (t.marker == 0) t.marker = static_cast<int>(t.part) + 1;
@@ -92,11 +97,10 @@ Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_r
       return solids(arrangement(surface, meeting_pairs(surface), tolerance, r), soup, group, parts.size(), tolerance, r);
     };
     close_all_wedges(result, tolerance, enclosed, report);
-    std::vector<Input_problem> problems = open_groups(soup, group, result.kept, holes, options, unit);
-    if (problems.empty() && result.plc.facets.empty()) problems = {{Input_problem::Kind::open_surface, "the triangles enclose nothing"}};
-    if (!problems.empty()) throw Input_error(std::move(problems));
+    if (auto problems = open_groups(soup, group, result.kept, holes, options, unit); !problems.empty()) throw Input_error(std::move(problems));
     plc = std::move(result.plc);
   }
+  require_some(plc.facets);
   report.largest_move *= unit;
   plc.exponent = parts[0].exponent;
   return plc;

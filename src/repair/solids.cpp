@@ -98,6 +98,7 @@ Plc as_plc(const Soup& soup) {
 
 Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report) {
   constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+  if (arranged.triangles.empty()) return {arranged, {}, kept_shares(arranged, soup, group)};
   const std::vector<Body> all = bodies(soup, group);
   const auto owner_at = [&](const Vec_3& p) {
     std::vector<std::size_t> layers(parts, 0);
@@ -131,7 +132,11 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
     }
   }
 
-  Soup kept{arranged.points, {}};
+  struct Kept {
+    Triangle triangle;
+    std::size_t front, back;  ///< owners
+  };
+  std::vector<Kept> boundary;
   for (Index f = 0; f < domain.facets.size(); ++f) {
     const auto front = owner[volumes.beside(f, 0, true)], back = owner[volumes.beside(f, 0, false)];
     for (const Index t : domain.facets[f].input_facets) {
@@ -139,28 +144,38 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
         ++report.inner_triangles;
         continue;
       }
-      Triangle& triangle = kept.triangles.emplace_back(arranged.triangles[t]);
-      triangle.times = 1;
-      if (back == nobody) std::swap(triangle.corners[1], triangle.corners[2]);
+      Kept& k = boundary.emplace_back(Kept{arranged.triangles[t], *front, *back});
+      k.triangle.times = 1;
+      if (back == nobody) {
+        std::swap(k.triangle.corners[1], k.triangle.corners[2]);
+        std::swap(k.front, k.back);
+      }
     }
   }
-  std::ranges::sort(kept.triangles, {}, [](const Triangle& t) { return std::pair{t.part, t.facet}; });
+  std::ranges::sort(boundary, {}, [](const Kept& k) { return std::pair{k.triangle.part, k.triangle.facet}; });
+  Soup kept{arranged.points, {}};
+  for (const Kept& k : boundary) kept.triangles.push_back(k.triangle);
   Solids result{kept, as_plc(kept), kept_shares(kept, soup, group)};
   if (parts == 1) return result;
 
   // Voids that are enclosed, and whose each volume is.
   Plc& plc = result.plc;
-  const Volumes_3<Default_kernel> left(domain_of_triangles(plc));
+  const Domain_3<Default_kernel> divided = domain_of_triangles(plc);
+  const Volumes_3<Default_kernel> left(divided);
+  std::vector<std::size_t> whose(left.volumes().size());
+  for (Index f = 0; f < divided.facets.size(); ++f) {
+    const Kept& k = boundary[divided.facets[f].input_facets[0]];
+    whose[left.beside(f, 0, true)] = k.front;
+    whose[left.beside(f, 0, false)] = k.back;
+  }
   plc.nesting = Nesting::fill;
-  for (std::size_t v = 1; v < left.volumes().size(); ++v) {
+  for (std::size_t v = 1; v < whose.size(); ++v) {
     const auto p = left.interior_point(v);
     if (!p) continue;
-    const std::size_t before = volumes.locate({p->x, p->y, p->z});
-    const std::size_t part = before == Volumes_3<Default_kernel>::none ? nobody : *owner[before];
-    if (part == nobody)
+    if (whose[v] == nobody)
       plc.holes.emplace_back(p->x, p->y, p->z);
     else
-      plc.regions.push_back({.point = {p->x, p->y, p->z}, .id = static_cast<int>(part) + 1});
+      plc.regions.push_back({.point = {p->x, p->y, p->z}, .id = static_cast<int>(whose[v]) + 1});
   }
   return result;
 }

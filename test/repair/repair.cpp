@@ -241,6 +241,15 @@ TEST_CASE("holes that are too wide, and sheets, are refused by name") {
   CHECK(std::abs(volume(repair(open, {tolerance, 1.5})) - 1) <= 1e-9);
 }
 
+TEST_CASE("triangles that enclose nothing once they are repaired are refused") {
+  Plc crossing, flat;
+  crossing.vertices = {{0, 0, 0}, {-1, 0, 5}, {1, 0, 5}, {0, -1, 5}, {0, 1, 5}};
+  crossing.facets = {{{{0, 1, 2}}, {}, 0}, {{{0, 3, 4}}, {}, 0}};
+  flat.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  flat.facets = {{{{0, 1, 2}}, {}, 0}};
+  for (const Plc& plc : {crossing, flat}) CHECK_THROWS_WITH(repair(plc, {tolerance, 1}), "the triangles enclose nothing");
+}
+
 TEST_CASE("three boxes that share sides with different triangles are an assembly of three regions") {
   const Plc left = as_surface(triangulated(box({0, 0, 0}, {1, 1, 1})));
   Plc middle = as_surface(triangulated(box({1, 0, 0}, {2, 1, 1})));
@@ -279,6 +288,20 @@ TEST_CASE("where parts overlap the later one has it: a bolt in a plate") {
     REQUIRE(v.size() == 2);
     CHECK(std::abs(v.at(1) - (16 - cylinder_volume(n, 0.6, 1))) <= 1e-9);
     CHECK(std::abs(v.at(2) - cylinder_volume(n, 0.6, 2.5)) <= 1e-9);
+  }
+}
+
+TEST_CASE("a part of an assembly keeps its volume where its own shells overlap") {
+  // On this grid points inside the union lie on facets inside it.
+  for (const std::array<double, 3> d : {std::array<double, 3>{1, 1, -2}, {2, 0, -2}, {-2, -2, 0}, {0, -2, 2}}) {
+    Plc plc = box({0, 0, 0}, {4, 4, 4});
+    add_box(plc, d, {d[0] + 4, d[1] + 4, d[2] + 4});
+    const auto v = volumes(assemble(std::vector<Plc>{as_surface(plc), as_surface(box({20, 20, 20}, {21, 21, 21}))}, {tolerance, 0}));
+    double both = 1;
+    for (const double x : d) both *= 4 - std::abs(x);
+    REQUIRE(v.size() == 2);
+    CHECK(std::abs(v.at(1) - (128 - both)) <= 1e-9);
+    CHECK(std::abs(v.at(2) - 1) <= 1e-9);
   }
 }
 
