@@ -119,10 +119,14 @@ class Wedge_closer : Edge_divider {
 
 std::size_t close_wedges(Soup& soup, double tolerance, double& largest_move) {
   constexpr int most_sweeps = 16;  // edges of both sheets may cross in ever smaller steps
+  // Of 17 surfaces whose wedges were closed none had more than 1.3 % more triangles for it, of five that intersected ever more afterwards all but one 17 % to four times as many:
+  // there whole sheets lie in one place.
+  const std::size_t most_triangles = soup.triangles.size() + soup.triangles.size() / 16 + 256;
   std::size_t closed = 0;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     const std::size_t now = Wedge_closer(soup, tolerance, largest_move).run();
     if (now == 0) break;
+    if (soup.triangles.size() > most_triangles) return 0;
     closed += now;
     close_flat_triangles(soup, largest_move);
   }

@@ -77,7 +77,8 @@ void close_cracks(Soup& soup, double tolerance, Repair_report& report);
 void close_flat_triangles(Soup& soup, double& largest_move, std::size_t first = static_cast<std::size_t>(-1), double limit = 0);
 
 /// Makes sheets one that leave an edge together, until they part by more than the tolerance: each gets the other's vertices, and a vertex where edges of both
-/// cross. Triangles that are low themselves are left. \return how many pairs of triangles it divided; some may intersect then
+/// cross. Triangles that are low themselves are left. \return how many pairs of triangles it divided; some may intersect then. 0, too, where that divides too
+/// much to lead anywhere: the soup is of no use then
 std::size_t close_wedges(Soup& soup, double tolerance, double& largest_move);
 
 /// Orients the triangles of each shell like their neighbors, and most of them as they were.
