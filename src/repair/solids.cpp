@@ -15,6 +15,14 @@ namespace pgdr::repair_detail {
 
 namespace {
 
+constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+
+/// A triangle between two owners.
+struct Kept {
+  Triangle triangle;
+  std::size_t front, back;
+};
+
 /// What one group of triangles encloses.
 struct Body {
   Index part = 0;
@@ -75,6 +83,27 @@ std::vector<double> kept_shares(const Soup& kept, const Soup& soup, const std::v
   return after;
 }
 
+/// For voids that are enclosed, and for whose each volume is. \param plc the triangles of `boundary`
+void add_seeds(Plc& plc, const std::vector<Kept>& boundary) {
+  const Domain_3<Default_kernel> domain = domain_of_triangles(plc);
+  const Volumes_3<Default_kernel> volumes(domain);
+  std::vector<std::size_t> owner(volumes.volumes().size(), nobody);
+  for (Index f = 0; f < domain.facets.size(); ++f) {
+    const Kept& k = boundary[domain.facets[f].input_facets[0]];
+    owner[volumes.beside(f, 0, true)] = k.front;
+    owner[volumes.beside(f, 0, false)] = k.back;
+  }
+  plc.nesting = Nesting::fill;
+  for (std::size_t v = 1; v < owner.size(); ++v) {
+    const auto p = volumes.interior_point(v);
+    if (!p) continue;
+    if (owner[v] == nobody)
+      plc.holes.emplace_back(p->x, p->y, p->z);
+    else
+      plc.regions.push_back({.point = {p->x, p->y, p->z}, .id = static_cast<int>(owner[v]) + 1});
+  }
+}
+
 }  // namespace
 
 Plc as_plc(const Soup& soup) {
@@ -97,7 +126,6 @@ Plc as_plc(const Soup& soup) {
 }
 
 Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report) {
-  constexpr std::size_t nobody = static_cast<std::size_t>(-1);
   if (arranged.triangles.empty()) return {arranged, {}, kept_shares(arranged, soup, group)};
   const std::vector<Body> all = bodies(soup, group);
   const auto owner_at = [&](const Vec_3& p) {
@@ -132,10 +160,6 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
     }
   }
 
-  struct Kept {
-    Triangle triangle;
-    std::size_t front, back;  ///< owners
-  };
   std::vector<Kept> boundary;
   for (Index f = 0; f < domain.facets.size(); ++f) {
     const auto front = owner[volumes.beside(f, 0, true)], back = owner[volumes.beside(f, 0, false)];
@@ -156,27 +180,7 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
   Soup kept{arranged.points, {}};
   for (const Kept& k : boundary) kept.triangles.push_back(k.triangle);
   Solids result{kept, as_plc(kept), kept_shares(kept, soup, group)};
-  if (parts == 1) return result;
-
-  // Voids that are enclosed, and whose each volume is.
-  Plc& plc = result.plc;
-  const Domain_3<Default_kernel> divided = domain_of_triangles(plc);
-  const Volumes_3<Default_kernel> left(divided);
-  std::vector<std::size_t> whose(left.volumes().size());
-  for (Index f = 0; f < divided.facets.size(); ++f) {
-    const Kept& k = boundary[divided.facets[f].input_facets[0]];
-    whose[left.beside(f, 0, true)] = k.front;
-    whose[left.beside(f, 0, false)] = k.back;
-  }
-  plc.nesting = Nesting::fill;
-  for (std::size_t v = 1; v < whose.size(); ++v) {
-    const auto p = left.interior_point(v);
-    if (!p) continue;
-    if (whose[v] == nobody)
-      plc.holes.emplace_back(p->x, p->y, p->z);
-    else
-      plc.regions.push_back({.point = {p->x, p->y, p->z}, .id = static_cast<int>(whose[v]) + 1});
-  }
+  if (parts > 1) add_seeds(result.plc, boundary);
   return result;
 }
 
