@@ -38,7 +38,7 @@ struct Frame {
     const Eigen::HouseholderQR<Positions> qr(p);
     const Eigen::Matrix3d r = qr.matrixQR().topRows<3>().triangularView<Eigen::Upper>();
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullV);
-    const Eigen::Matrix3d axes = svd.matrixV();
+    const Eigen::Matrix3d& axes = svd.matrixV();
     positions.noalias() = p * axes;
     for (int d = 0; d < 2; ++d) {
       const double size = positions.col(d).cwiseAbs().maxCoeff();

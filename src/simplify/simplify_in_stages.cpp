@@ -25,9 +25,12 @@ Simplification_stages::Simplification_stages(double tolerance, double diagonal, 
     : tolerance_(tolerance), coplanar_tolerance_(coplanar_tolerance), triangulate_(triangulate) {
   // From narrow to wide: facets that are nearly plane are plane before they are seen as parts of wider ones. All at once, a wing section
   // of 900 strips has 707 facets that cannot be made plane at 1e-4 of its diagonal; in stages it has 2.
-  const double last = for_planarization * tolerance / diagonal;
-  if (!(coplanar_tolerance > 0 && last > coplanar_tolerance)) return;
-  for (double t = last; t > coplanar_tolerance; t /= step) passes_.push_back(t);
+  double pass = for_planarization * tolerance / diagonal;
+  if (!(coplanar_tolerance > 0 && pass > coplanar_tolerance)) return;
+  while (pass > coplanar_tolerance) {
+    passes_.push_back(pass);
+    pass /= step;
+  }
   passes_.push_back(coplanar_tolerance);
   std::ranges::reverse(passes_);
 }

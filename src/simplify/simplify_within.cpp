@@ -98,7 +98,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
     // What each step may do adds up to the tolerance, but mostly they use a third of it; so twice as much is tried first, and measured.
     double within = 2 * tolerance;
     std::optional<Candidate> best;
-    for (int attempt = 0; within > fused; within *= attempt++ % 2 == 0 ? 0.5 : 0.2) {
+    for (int attempt = 0; within > fused; ++attempt) {
       const simplify_detail::Simplification_stages stages = stages_within(within);
       Stage planes = stages.make_plane(plc, &noise);
       std::vector<Candidate> candidates;
@@ -130,6 +130,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
       }
       // Planes alone may be better when they are not sought as widely.
       if (best && (best->is_all || !is_better)) break;
+      within *= attempt % 2 == 0 ? 0.5 : 0.2;
     }
     if (best) {
       report = best->stage.done;

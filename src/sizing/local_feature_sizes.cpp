@@ -95,8 +95,9 @@ class Widths {
       if (squared_distance(c[(i + 1) % 3], c[(i + 2) % 3]) > squared_distance(c[(k + 1) % 3], c[(k + 2) % 3])) k = i;
     const Vec_3 &a = c[(k + 1) % 3], &b = c[(k + 2) % 3], middle = 0.5 * (a + b);
     const std::size_t first = pieces.size();
-    const bool is_whole = add_pieces(facet, inward, {c[k], a, middle}, most, pieces) & add_pieces(facet, inward, {c[k], middle, b}, most, pieces);
-    if (!is_whole || pieces.size() != first + 2) return false;
+    const bool is_first_whole = add_pieces(facet, inward, {c[k], a, middle}, most, pieces);
+    const bool is_second_whole = add_pieces(facet, inward, {c[k], middle, b}, most, pieces);
+    if (!is_first_whole || !is_second_whole || pieces.size() != first + 2) return false;
     const auto [least, largest] = std::minmax(pieces[first].width, pieces[first + 1].width);
     if (largest > (1 + accuracy) * least) return false;
     pieces[first] = {c, least};
