@@ -22,6 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   parameters.verify = true;
   parameters.triangulate_facets = bytes.byte() & 1u;
   const unsigned size_code = bytes.byte();
+  parameters.optimization_rounds = size_code >> 6u;
   pgdr::Plc plc = pgdr_fuzz::plc_of(bytes);
   const double radius = size_code & 3u ? std::numeric_limits<double>::infinity() : 0.5 + size_code / 16.0;
   try {
