@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <pgdr/domain/input_error.h>
-#include <pgdr/domain/scale.h>
 #include <pgdr/domain/valid_domain.h>
 #include <pgdr/repair/repair.h>
 #include <pgdr/simplify/simplify_within.h>
