@@ -41,16 +41,10 @@ C3t3 make_mesh_3(const FaceGraph& surface, const Mesh_criteria_3& criteria, cons
 
 /// Refines a mesh further, to another size or ratio (by a sizing field or by `Mesh_criteria_3`): it keeps all of its vertices and the same parts. Vertices and cells are
 /// new ones: handles and what the user kept in them are lost. Throws what `plc_from_mesh_complex_3` and `make_mesh_3` throw, and leaves the mesh as it is then.
-template <MeshComplex C3t3, class Criteria>
+template <MeshComplex C3t3, class Criteria = Mesh_criteria_3>
 void refine_mesh_3(C3t3& c3t3, const Criteria& criteria, const Parameters& parameters = {}) {
   C3t3 refined = make_mesh_3<C3t3>(plc_from_mesh_complex_3(c3t3), criteria, parameters);
   c3t3.swap(refined);
-}
-
-/// So that criteria can be written in braces.
-template <MeshComplex C3t3>
-void refine_mesh_3(C3t3& c3t3, const Mesh_criteria_3& criteria, const Parameters& parameters = {}) {
-  refine_mesh_3<C3t3, Mesh_criteria_3>(c3t3, criteria, parameters);
 }
 
 }  // namespace pgdr

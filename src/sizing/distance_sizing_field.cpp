@@ -95,7 +95,7 @@ struct Segments {
 }  // namespace
 
 struct Distance_sizing_field::Tree {
-  explicit Tree(double unit) : unit(unit) {}
+  explicit Tree(double unit_of_objects) : unit(unit_of_objects) {}
   virtual ~Tree() = default;
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
