@@ -12,9 +12,8 @@
 
 #include "catch.h"
 #include "domain/shapes.h"
-#include "refinement/refined.h"
+#include "refinement/any_threads.h"
 #include "seeded_random.h"
-#include "thread_counts.h"
 
 using namespace pgdr_test;
 using pgdr::Index;
@@ -145,16 +144,6 @@ TEST_CASE("What parts with a gap between them cost does not depend on how narrow
     for (const double gap : {1e-3, 1e-4, 1e-6}) {
       const Plc plc = stack(random, gap);
       CAPTURE(k, gap);
-      pgdr::Parameters parameters;
-      parameters.max_vertices = 30000;
-      std::vector<pgdr::Indexed_mesh_3> meshes;
-      for (const unsigned threads : thread_counts()) {
-        parameters.threads = threads;
-        const Mesh mesh = refined(plc, std::numeric_limits<double>::infinity(), parameters);
-        REQUIRE(mesh.statistics().stop == pgdr::Stop_reason::finished);
-        meshes.push_back(pgdr::indexed_mesh_3(mesh));
-        if (threads == 1) CHECK(failures(pgdr::check_mesh(meshes.back(), &mesh.domain())) == "");
-        CHECK(equal(meshes.front(), meshes.back()));
-      }
+      mesh_with_any_threads(plc, 30000);
     }
 }

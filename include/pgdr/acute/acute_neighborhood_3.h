@@ -24,6 +24,7 @@
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mirrors/gaps_3.h>
 #include <pgdr/mirrors/shells_3.h>
+#include <pgdr/mirrors/vertex_wedges_3.h>
 #include <pgdr/mirrors/wedges_3.h>
 
 namespace pgdr {
@@ -52,6 +53,7 @@ class Acute_neighborhood_3 {
 
   const Facet_wedges_3& wedges() const { return wedges_; }
   const Segment_wedges_3& segment_wedges() const { return segment_wedges_; }
+  const Vertex_wedges_3& vertex_wedges() const { return vertex_wedges_; }
   const Shells_3& shells() const { return shells_; }
   const Gaps_3& gaps() const { return gaps_; }
   const Protected_balls_3& balls() const { return *balls_; }
@@ -66,22 +68,30 @@ class Acute_neighborhood_3 {
   }
 
   /// Whether two points p and q of different features, segments or facets, may be as close as
-  /// they are just because the features meet at less than `limit` degrees, near p. The local feature size, which takes no
-  /// notice of features that meet, does not know such distances.
+  /// they are just because the features meet at less than `limit` degrees, near p; or, if one is a segment, because a facet of it does, with an image of
+  /// what is on either on the other. The local feature size, which takes no notice of features that meet, does not know such distances.
   bool explains(const Feature_id& of_p, const Vec_3& p, const Feature_id& of_q, const Vec_3& q) const {
     if (of_p == of_q || !has_angles(of_p) || !has_angles(of_q)) return false;
     if (narrow_->lies_on(of_p, of_q) || narrow_->lies_on(of_q, of_p)) return false;
     const double gap2 = squared_distance(p, q);
-    return std::ranges::any_of(angles_at(of_p), [&](Place place) {
-      return gap2 >= squared_gap(place, p) && std::ranges::binary_search(angles_at(of_q), place);
+    const auto explains = [&](Place place, const std::vector<Place>& of_other) { return gap2 >= squared_gap(place, p) && std::ranges::binary_search(of_other, place); };
+    if (std::ranges::any_of(angles_at(of_p), [&](Place place) { return explains(place, angles_at(of_q)); })) return true;
+    if (of_p.dimension == 2 && of_q.dimension == 2) return false;
+    // A segment of a facet is as close to the other facet as the facet is.
+    return narrow_->any_facet(of_p, [&](const Feature_id& f) {
+      return !narrow_->lies_on(of_q, f) && narrow_->any_facet(of_q, [&](const Feature_id& g) {
+        return !narrow_->lies_on(of_p, g) && std::ranges::any_of(angles_at(f), [&](Place place) {
+          return ((place & segment_bit) || vertex_wedges_.are_close(f, g)) && explains(place, angles_at(g));
+        });
+      });
     });
   }
 
   /// Whether two features come close to each other at vertices only, none of them the end of a segment with a small dihedral
-  /// angle. Then how far apart they are is bounded from below, but for their pieces at these vertices (`meet_at`).
+  /// angle, and not one above the other. Then how far apart they are is bounded from below, but for their pieces at these vertices (`meet_at`).
   bool meet_at_vertices_only(const Feature_id& a, const Feature_id& b) const {
     const auto& of_b = angles_at(b);
-    return std::ranges::none_of(angles_at(a), [&](Place place) {
+    return !vertex_wedges_.are_close(a, b) && std::ranges::none_of(angles_at(a), [&](Place place) {
       return ((place & segment_bit) || ends_wedge_[place]) && std::ranges::binary_search(of_b, place);
     });
   }
@@ -105,7 +115,7 @@ class Acute_neighborhood_3 {
  private:
   template <class K>
   Acute_neighborhood_3(const Domain_3<K>& domain, Size_bounds sizes, const domain_detail::Facet_edges& edges, const Small_angles& angles)
-      : wedges_(domain, edges), shells_(domain, angles), segment_wedges_(domain, edges, shells_), gaps_(domain), sizes_(std::move(sizes)) {
+      : wedges_(domain, edges), shells_(domain, angles), segment_wedges_(domain, edges, shells_), vertex_wedges_(domain, angles), gaps_(domain), sizes_(std::move(sizes)) {
     smallest_dihedral_deg_ = angles.smallest_dihedral_deg;
     is_acute_vertex_.resize(domain.vertices.size(), false);
     list_small_angles(domain, angles);
@@ -192,6 +202,7 @@ class Acute_neighborhood_3 {
   Facet_wedges_3 wedges_;
   Shells_3 shells_;
   Segment_wedges_3 segment_wedges_;
+  Vertex_wedges_3 vertex_wedges_;
   Gaps_3 gaps_;
   Size_bounds sizes_;
   std::optional<Protected_balls_3> balls_;

@@ -38,6 +38,12 @@ class Narrow_angles_3 {
     return any_at(p, [&](const Feature_id& f) { return f == feature; });
   }
 
+  /// Asks about a facet itself, or the facets of a segment.
+  template <class Predicate>
+  bool any_facet(const Feature_id& p, const Predicate& predicate) const {
+    return any_at(p, [&](const Feature_id& f) { return f.dimension == 2 && predicate(f); });
+  }
+
   /// Whether a point at `u`, a domain vertex or on a segment, is where two features meet at less than `limit` degrees, of which the
   /// points at `p` and `q` are on one each. \pre dimensions are 2 at most
   bool are_narrow(const Feature_id& u, const Feature_id& p, const Feature_id& q, double limit) const {

@@ -85,7 +85,7 @@ class Protected_balls_3 {
   Index find(const Vec_3& p) const {
     if (centers_.size() == 0) return none;
     const auto nearest = *Search(centers_, Kernel::Point_3(p.x, p.y, p.z), 1).begin();
-    const double r = (1 - rounding) * radius_[nearest.first.second];
+    const double r = (1 - slack) * radius_[nearest.first.second];
     return nearest.second < r * r ? nearest.first.second : none;
   }
 
@@ -108,11 +108,13 @@ class Protected_balls_3 {
 
   /// Whether no point of the segment from v to p is outside of v's ball.
   bool contains_segment(Index v, const Vec_3& p) const {
-    return length(p - position_[v]) <= (1 + rounding) * radius_[v];
+    return length(p - position_[v]) <= (1 + slack) * radius_[v];
   }
 
  private:
-  static constexpr double rounding = 1e-9;
+  /// Less than this inside counts as on a sphere: images are as far off like places (`Turn_3`), and if some were moved onto the sphere and others not, four points of two
+  /// facets could be a flat tetrahedron.
+  static constexpr double slack = 2e-6;
 
   /// Of a ball around v with this radius one, by halving, in which no size is smaller than its radius, as far as samples tell.
   double sized(Index v, double radius, const Size_bounds& sizes) const {

@@ -13,6 +13,7 @@
 
 #include <pgdr/conforming/facet_plane_3.h>
 #include <pgdr/conforming/slot_array.h>
+#include <pgdr/domain/bend.h>
 #include <pgdr/domain/domain_3.h>
 #include <pgdr/mesh/mesh_triangulation_3.h>
 #include <pgdr/mesh/triangle_ball.h>
@@ -94,14 +95,9 @@ class Constraint_complex_3 {
 
   explicit Constraint_complex_3(const Domain& domain) : domain_(&domain) {
     planes_.reserve(domain.facets.size());
-    for (const auto& f : domain.facets) {
-      const Facet_plane_3& plane = planes_.emplace_back(f.origin, f.normal);
-      double bend = 0;
-      for (const Index v : f.vertices) {
-        const Vec_3 p = to_vec(domain.vertices[v]);
-        bend = std::max(bend, length(plane.project(p) - p));
-      }
-      bends_.push_back(bend > flatness * domain.diagonal ? bend : 0);
+    for (Index f = 0; f < domain.facets.size(); ++f) {
+      planes_.emplace_back(domain.facets[f].origin, domain.facets[f].normal);
+      bends_.push_back(pgdr::bend(domain, f));
     }
     corner_subsegments_.resize(domain.vertices.size());
     sides_.resize(domain.facets.size(), {unknown_side, unknown_side});
@@ -300,8 +296,6 @@ class Constraint_complex_3 {
   }
 
  private:
-  static constexpr double flatness = 1e-12;  ///< of the diagonal: how far vertices of a flat facet may be off its plane
-
   /// What lies across an edge gets another subfacet on this side of it.
   void replace_neighbor(std::uint32_t code, std::uint32_t from, std::uint32_t to) {
     if (code & subsegment_bit) {

@@ -133,7 +133,7 @@ class Feature_refiner_3 {
     return segment ? complex_.subsegment_radius(r.piece.slot) : complex_.subfacet_radius(r.piece.slot);
   }
 
-  /// Puts the images of the domain's own vertices, and points where segments cross each other across gaps. A vertex's insertion radius is for that its shortest segment.
+  /// Puts the images of the domain's own vertices, and points where segments cross each other. A vertex's insertion radius is for that its shortest segment.
   void mirror_corners() {
     const auto& domain = complex_.domain();
     std::vector<double> radius(domain.vertices.size(), std::numeric_limits<double>::infinity());
@@ -147,10 +147,10 @@ class Feature_refiner_3 {
       vertex[v->index()] = v;
       radius[v->index()] = std::min(radius[v->index()], 2 * complex_.subsegment_radius(s));
     });
-    for_each_end([&](std::uint32_t s, Vertex_handle v) { images_.add_on_segments(v, complex_.subsegment(s).segment, radius[v->index()]); });
+    for_each_end([&](std::uint32_t s, Vertex_handle v) { images_.add_of_segment(v, complex_.subsegment(s).segment, radius[v->index()]); });
     for (Index f = 0; f < domain.facets.size(); ++f)
       for (const Index v : domain.facets[f].vertices)
-        if (vertex[v] != Vertex_handle()) images_.add_across_gaps(vertex[v], f, radius[v]);
+        if (vertex[v] != Vertex_handle()) images_.add_of_corner(vertex[v], f, radius[v]);
     images_.add_crossings();
     put_images();
   }
@@ -515,7 +515,7 @@ class Feature_refiner_3 {
   }
 
   /// Gives the features that meet v's at a small angle, and pass closer to v than other vertices are, a point at the
-  /// like place (see `Facet_wedges_3`, `Segment_wedges_3`).
+  /// like place (see `Facet_wedges_3`, `Segment_wedges_3`, `Vertex_wedges_3`).
   void mirror(Vertex_handle v, Split_reason reason) {
     images_.add_of(v, made_, reason != Split_reason::missing);
     put_images();

@@ -56,37 +56,41 @@ class Images_3 {
     const double radius = v->insertion_radius();
     for (const std::uint32_t t : around)
       if (std::exchange(facet, complex_.subfacet(t).facet) != complex_.subfacet(t).facet)
-        for_each_image(facet, position(v), radius, (is_usual ? 0.5 : 1) * radius, is_usual, add_on_facet(v, radius, is_usual, by));
-    if (v->in_dimension() == 1) add_on_segments(v, v->index(), radius);
+        for_each_image(facet, position(v), radius, (is_usual ? usual : 1) * radius, is_usual, add_on_facet(v, radius, is_usual, by));
+    if (v->in_dimension() == 1) add_of_segment(v, v->index(), radius);
   }
 
-  /// Adds the images of a domain vertex across gaps, on facets that face one of its facets.
-  void add_across_gaps(Vertex_handle v, Index facet, double radius) {
-    acute_.gaps().for_each_image_on_facets(facet, position(v), radius, is_alone(), add_on_facet(v, radius, true));
+  /// Adds the images of a domain vertex that one of its facets has on others.
+  void add_of_corner(Vertex_handle v, Index facet, double radius) {
+    for_each_image(facet, position(v), radius, usual * radius, true, add_on_facet(v, radius, true));
   }
 
-  /// Adds the images of a vertex of a segment, which may be one of its ends, on segments close by. On those that meet it only for one that is alone
+  /// Adds the images of a vertex of a segment, which may be one of its ends, on segments close by and on facets below. On segments that meet it only for one that is alone
   /// at work: to conform to needles takes like points; when that is done refinement puts its own wherever it needs them, which images only add to.
-  void add_on_segments(Vertex_handle v, Index segment, double radius) {
+  void add_of_segment(Vertex_handle v, Index segment, double radius) {
     const auto add_image = [&](const Mirror_image& i) { add({v, i.on, acute_.balls().outside(i.at), radius, true, i.inherits}); };
     if (is_alone()) acute_.segment_wedges().for_each_image(segment, position(v), close * radius, add_image);
     acute_.gaps().for_each_image_on_segments(segment, position(v), radius, is_alone(), add_image);
+    acute_.vertex_wedges().for_each_image({1, segment}, position(v), radius, usual * radius, add_on_facet(v, radius, true));
   }
 
-  /// Adds the points where segments cross each other across gaps, for one that is alone at work. Neither has a vertex there that could have an image.
+  /// Adds the points where segments cross each other, for one that is alone at work. Neither has a vertex there that could have an image.
   void add_crossings() {
-    for (const auto& c : acute_.gaps().crossings())
-      for (const std::size_t k : {0, 1}) add({{}, {1, c.segments[k]}, c.at[k], c.radius, true, false});
+    for (const auto* crossings : {&acute_.gaps().crossings(), &acute_.vertex_wedges().crossings()})
+      for (const Crossing_3& c : *crossings)
+        for (const std::size_t k : {0, 1}) add({{}, {1, c.segments[k]}, c.at[k], c.radius, true, false});
   }
 
   /// Whether a point m put on this facet, or segment, at this distance from other vertices would have images there, wherever these are.
   bool has_images(const Feature_id& on, const Vec_3& m, double radius) const {
     bool found = false;
     const auto note = [&](const Mirror_image&) { found = true; };
-    if (on.dimension == 1)
-      acute_.gaps().for_each_image_on_segments(on.index, m, radius, is_alone(), note);
-    else
+    if (on.dimension == 2) {
       for_each_image(on.index, m, radius, radius, true, note);
+    } else {
+      acute_.gaps().for_each_image_on_segments(on.index, m, radius, is_alone(), note);
+      acute_.vertex_wedges().for_each_image(on, m, radius, usual * radius, note);
+    }
     return found;
   }
 
@@ -156,12 +160,15 @@ class Images_3 {
  private:
   /// How close the other segment has to be for an image, of the vertex's insertion radius. Table in docs/robustness.md.
   static constexpr double close = 0.01;
+  /// And how close another facet.
+  static constexpr double usual = 0.5;
   /// How far an image has to be from other vertices of its segment, of that radius: what a split may halve.
   static constexpr double least = 0.5;
 
   template <class Found>
   void for_each_image(Index facet, const Vec_3& m, double radius, double distance, bool is_usual, const Found& found) const {
     acute_.wedges().for_each_image(facet, m, radius, distance, is_usual, found);
+    acute_.vertex_wedges().for_each_image({2, facet}, m, radius, distance, found);
     acute_.gaps().for_each_image_on_facets(facet, m, radius, is_alone(), found);
   }
 

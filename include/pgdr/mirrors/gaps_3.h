@@ -24,6 +24,7 @@
 #include <pgdr/domain/reproducible_functions.h>
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/domain/volumes_3.h>
+#include <pgdr/mirrors/crossing_3.h>
 #include <pgdr/mirrors/mirror_image.h>
 
 namespace pgdr {
@@ -90,15 +91,8 @@ class Gaps_3 {
     }
   }
 
-  /// Two segments that cross each other across what is not meshed, and the points of theirs that are closest to each other.
-  struct Crossing {
-    std::array<Index, 2> segments;
-    std::array<Vec_3, 2> at;
-    double radius;  ///< of a point that would have an image this far away
-  };
-  /// Those with room for their points, by the numbers of the segments: the ends of the segments are as far as the insertion radius of a point that would
-  /// have an image, at least.
-  const std::vector<Crossing>& crossings() const { return crossings_; }
+  /// Segments that cross each other across what is not meshed, by their numbers.
+  const std::vector<Crossing_3>& crossings() const { return crossings_; }
 
  private:
   static constexpr double rounding = 1e-12;
@@ -261,7 +255,8 @@ class Gaps_3 {
     const auto point = [&](Index i) { return to_vec(domain.vertices[i]); };
     const Vec_3 a = point(v[0]), e = point(v[1]) - a;
     Vec_3 b = point(w[0]), f = point(w[1]) - b;
-    if (is_empty) note_crossing({s, t}, a, e, b, f);
+    if (is_empty)
+      if (const auto crossing = crossing_3(domain, s, t, along_empty)) crossings_.push_back(*crossing);
     if (std::abs(dot(e, f)) < cosine_of_limit() * length(e) * length(f)) return;
     if (dot(e, f) < 0) {
       b = point(w[1]);
@@ -275,19 +270,10 @@ class Gaps_3 {
     of_segment_[t].push_back(to_s);
   }
 
-  /// From a along e, and from b along f; of parallel ones there is none, since nothing is more than not a number.
-  void note_crossing(const std::array<Index, 2>& segments, const Vec_3& a, const Vec_3& e, const Vec_3& b, const Vec_3& f) {
-    const Vec_3 normal = cross(e, f), between = b - a;
-    const double n2 = squared_length(normal), x = dot(cross(between, f), normal) / n2, y = dot(cross(between, e), normal) / n2;
-    const Vec_3 p = a + x * e, q = b + y * f;
-    const double room = std::min(std::min(x, 1 - x) * length(e), std::min(y, 1 - y) * length(f)), radius = length(q - p) / along_empty;
-    if (radius < room) crossings_.push_back({segments, {p, q}, radius});
-  }
-
   std::vector<Region_3> boxes_;  ///< of all facets
   std::vector<std::vector<Reflection>> of_facet_;
   std::vector<std::vector<Shift>> of_segment_;
-  std::vector<Crossing> crossings_;
+  std::vector<Crossing_3> crossings_;
   std::vector<std::vector<Kernel::Triangle_3>> triangles_;  ///< of facets with gaps
   std::vector<std::unique_ptr<Tree>> trees_;                ///< of these
   double tolerance_ = 0;

@@ -15,6 +15,7 @@
 #include <pgdr/domain/vec_3.h>
 #include <pgdr/mirrors/mirror_image.h>
 #include <pgdr/mirrors/shells_3.h>
+#include <pgdr/mirrors/turn_3.h>
 
 namespace pgdr {
 
@@ -70,18 +71,7 @@ class Segment_wedges_3 {
   std::vector<std::vector<Wedge>> of_segment_;
 };
 
-/// The pairs of facets that meet at less than `limit` degrees in a segment.
-///
-/// A vertex of one of them may lie in the equatorial ball of a subfacet of the other, however small that is, unless both have
-/// their vertices at like places. Then none does: let q be a vertex at height h over the segment, q' its image, c the
-/// center of the ball at height k, and phi the angle; |q - c|^2 = |q' - c|^2 + 2 h k (1 - cos phi), and |q' - c| is at least
-/// the radius if the subfacet is Delaunay in its facet. (The argument of the collars of A. Rand and N. Walkington, *Collars
-/// and intestines: practical conforming Delaunay refinement*, IMR 2009, here for whatever points there are.)
-///
-/// Two vertices and their exact images are cocircular. So images are beside the like places (`aslant`), by e, say. Then |q' - c| >= r - e, with r the
-/// radius, and the lemma holds while e r <= h k (1 - cos phi). A vertex is g from its image, g^2 = 2 h^2 (1 - cos phi), and e is g^2 / (8 R) at most, with R
-/// its insertion radius: enough where k / r >= h / (4 R), that is, for all balls but those whose centers are close to the segment. These may be encroached,
-/// by a millionth of g at most.
+/// The pairs of facets that meet at less than `limit` degrees in a segment, about which each is turned onto the other (`Turn_3`).
 class Facet_wedges_3 {
  public:
   static constexpr double limit = 60;
@@ -99,8 +89,7 @@ class Facet_wedges_3 {
         for (const Sheet& g : edges.sheets(s)) {
           const Vec_3 u = normalized(inward(domain, f, along)), v = normalized(inward(domain, g, along));
           const double angle = angle_deg(u, v);
-          if (f.facet != g.facet && angle < limit)
-            of_facet_[f.facet].push_back({g.facet, origin, along, u, v, beside(along, v), share * dot(v - u, aslant), length(u - v), angle < usual_limit});
+          if (f.facet != g.facet && angle < limit) of_facet_[f.facet].push_back({g.facet, angle < usual_limit, Turn_3(origin, along, u, v)});
         }
     }
   }
@@ -112,35 +101,15 @@ class Facet_wedges_3 {
   void for_each_image(Index facet, const Vec_3& m, double radius, double distance, bool is_usual, const Found& found) const {
     for (const Wedge& w : of_facet_[facet]) {
       if (is_usual && !w.is_usual) continue;
-      const double t = dot(m - w.origin, w.along) / dot(w.along, w.along);
-      const Vec_3 foot = w.origin + t * w.along;
-      const double h = dot(m - foot, w.inward);
-      const double gap = w.chord * h;
-      if (h <= 0 || gap > distance) continue;
-      const Vec_3 at = foot + h * w.other_inward + std::clamp(w.off * h, -gap * gap / (8 * radius), gap * gap / (8 * radius)) * w.beside;
-      if (boxes_[w.other].contains_closed(at)) found(Mirror_image{{2, w.other}, at});
+      if (const auto at = w.turn.image(m, radius, distance); at && boxes_[w.other].contains_closed(*at)) found(Mirror_image{{2, w.other}, *at});
     }
   }
 
  private:
-  /// How much images are off like places at most, of their distance from what they are images of: as much as that is along `aslant`. So it adds up
-  /// from facet to facet, and images of one vertex in two of them are not at like places either. Table in docs/robustness.md.
-  static constexpr double share = 1e-6;
-
-  /// In which direction images in a facet are beside like places. Neither along the segment nor away from it: two vertices at a right angle to it
-  /// would be cocircular with their images.
-  static Vec_3 beside(const Vec_3& along, const Vec_3& inward) {
-    return (dot(along, aslant) < 0 ? -0.85 : 0.85) * domain_detail::normalized(along) + 0.53 * inward;
-  }
-
   struct Wedge {
     Index other;
-    Vec_3 origin, along;         ///< the segment: a vertex, and from there to the other one
-    Vec_3 inward, other_inward;  ///< unit vectors from the segment into the two facets
-    Vec_3 beside;                ///< a unit vector from like places to images
-    double off;                  ///< how far along that, in units of their height
-    double chord;                ///< distance between a point and its image, in units of their height
     bool is_usual;
+    Turn_3 turn;
   };
   std::vector<std::vector<Wedge>> of_facet_;
   std::vector<Region_3> boxes_;
