@@ -74,24 +74,27 @@ class Acute_neighborhood_3 {
     if (of_p == of_q || !has_angles(of_p) || !has_angles(of_q)) return false;
     if (narrow_->lies_on(of_p, of_q) || narrow_->lies_on(of_q, of_p)) return false;
     const double gap2 = squared_distance(p, q);
-    const auto explains = [&](Place place, const std::vector<Place>& of_other) { return gap2 >= squared_gap(place, p) && std::ranges::binary_search(of_other, place); };
-    if (std::ranges::any_of(angles_at(of_p), [&](Place place) { return explains(place, angles_at(of_q)); })) return true;
+    const auto accounts = [&](Place place, const std::vector<Place>& of_other) { return gap2 >= squared_gap(place, p) && std::ranges::binary_search(of_other, place); };
+    if (std::ranges::any_of(angles_at(of_p), [&](Place place) { return accounts(place, angles_at(of_q)); })) return true;
     if (of_p.dimension == 2 && of_q.dimension == 2) return false;
     // A segment of a facet is as close to the other facet as the facet is.
     return narrow_->any_facet(of_p, [&](const Feature_id& f) {
       return !narrow_->lies_on(of_q, f) && narrow_->any_facet(of_q, [&](const Feature_id& g) {
         return !narrow_->lies_on(of_p, g) && std::ranges::any_of(angles_at(f), [&](Place place) {
-          return ((place & segment_bit) || vertex_wedges_.are_close(f, g)) && explains(place, angles_at(g));
+          return ((place & segment_bit) || vertex_wedges_.are_close(f, g)) && accounts(place, angles_at(g));
         });
       });
     });
   }
 
   /// Whether two features come close to each other at vertices only, none of them the end of a segment with a small dihedral
-  /// angle, and not one above the other. Then how far apart they are is bounded from below, but for their pieces at these vertices (`meet_at`).
+  /// angle, and neither, nor a facet that it is on, above the other (`Vertex_wedges_3`). Then how far apart they are is bounded from below, but for their pieces at these vertices (`meet_at`).
   bool meet_at_vertices_only(const Feature_id& a, const Feature_id& b) const {
     const auto& of_b = angles_at(b);
-    return !vertex_wedges_.are_close(a, b) && std::ranges::none_of(angles_at(a), [&](Place place) {
+    const bool is_above = narrow_->any_at(a, [&](const Feature_id& f) {
+      return narrow_->any_at(b, [&](const Feature_id& g) { return vertex_wedges_.are_close(f, g); });
+    });
+    return !is_above && std::ranges::none_of(angles_at(a), [&](Place place) {
       return ((place & segment_bit) || ends_wedge_[place]) && std::ranges::binary_search(of_b, place);
     });
   }

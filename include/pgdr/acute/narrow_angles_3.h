@@ -38,7 +38,14 @@ class Narrow_angles_3 {
     return any_at(p, [&](const Feature_id& f) { return f == feature; });
   }
 
-  /// Asks about a facet itself, or the facets of a segment.
+  /// Asks about the segments and facets that a point is on.
+  template <class Predicate>
+  bool any_at(const Feature_id& p, const Predicate& predicate) const {
+    if (p.dimension == 2) return predicate(p);
+    return std::ranges::any_of(p.dimension == 1 ? at_segment_[p.index] : at_vertex_[p.index], predicate);
+  }
+
+  /// Of these, about the facets.
   template <class Predicate>
   bool any_facet(const Feature_id& p, const Predicate& predicate) const {
     return any_at(p, [&](const Feature_id& f) { return f.dimension == 2 && predicate(f); });
@@ -56,13 +63,6 @@ class Narrow_angles_3 {
   }
 
  private:
-  /// Asks about the segments and facets that a point is on.
-  template <class Predicate>
-  bool any_at(const Feature_id& p, const Predicate& predicate) const {
-    if (p.dimension == 2) return predicate(p);
-    return std::ranges::any_of(p.dimension == 1 ? at_segment_[p.index] : at_vertex_[p.index], predicate);
-  }
-
   bool meet_narrowly(const Feature_id& a, const Feature_id& b, const Feature_id& u, double limit) const {
     bool in_segment = false, in_narrow_segment = false;
     if (a.dimension == 2 && b.dimension == 2)

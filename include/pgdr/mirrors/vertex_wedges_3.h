@@ -37,25 +37,27 @@ class Vertex_wedges_3 {
  public:
   template <class K>
   Vertex_wedges_3(const Domain_3<K>& domain, const Small_angles& angles)
-      : of_segment_(domain.segments.size()), of_facet_(domain.facets.size()), facets_of_(domain.segments.size()), boxes_(facet_boxes(domain)) {
+      : of_segment_(domain.segments.size()), of_facet_(domain.facets.size()) {
+    const auto is_narrow = [](double degrees) { return degrees < Small_angles::critical_plane_angle_deg; };
+    if (std::ranges::none_of(angles.vertex_deg, is_narrow)) return;
+    boxes_ = facet_boxes(domain);
     const domain_detail::Vertex_features features(domain);
     for (Index v = 0; v < domain.vertices.size(); ++v)
-      if (angles.vertex_deg[v] < Small_angles::critical_plane_angle_deg) add(domain, features, v);
-    for (Index s = 0; s < domain.segments.size(); ++s) facets_of_[s] = domain.segments[s].facets;
+      if (is_narrow(angles.vertex_deg[v])) add(domain, features, v);
   }
 
   /// Calls `found` with each image of m, a point on the segment or facet with this insertion radius, that is within `distance` of it: in the plane of a facet, and in
   /// its bounding box.
   template <class Found>
   void for_each_image(const Feature_id& on, const Vec_3& m, double radius, double distance, const Found& found) const {
-    for (const Wedge& w : on.dimension == 1 ? of_segment_[on.index] : of_facet_[on.index])
+    for (const Wedge& w : wedges(on))
       if (const auto at = w.turn.image(m, radius, distance); at && boxes_[w.lower].contains_closed(*at)) found(Mirror_image{{2, w.lower}, *at});
   }
 
   /// Segments of such facets that cross each other.
   const std::vector<Crossing_3>& crossings() const { return crossings_; }
 
-  /// Whether two segments or facets are close to each other because they are, or are part of, such a pair.
+  /// Whether two segments or facets are such a pair.
   bool are_close(const Feature_id& a, const Feature_id& b) const { return is_above(a, b) || is_above(b, a); }
 
  private:
@@ -195,19 +197,10 @@ class Vertex_wedges_3 {
     return std::max(0.0, std::min(angle(a.sides[0], a.sides[1]), start + angle(first, last)) - std::max(0.0, start));
   }
 
-  std::span<const Index> facets_of(const Feature_id& f) const {
-    return f.dimension == 1 ? std::span<const Index>(facets_of_[f.index]) : std::span<const Index>(&f.index, 1);
-  }
-
-  bool is_above(const Feature_id& a, const Feature_id& b) const {
-    return std::ranges::any_of(facets_of(b), [&](Index lower) {
-      return (a.dimension == 1 && has(of_segment_[a.index], lower)) ||
-             std::ranges::any_of(facets_of(a), [&](Index upper) { return has(of_facet_[upper], lower); });
-    });
-  }
+  const std::vector<Wedge>& wedges(const Feature_id& upper) const { return upper.dimension == 1 ? of_segment_[upper.index] : of_facet_[upper.index]; }
+  bool is_above(const Feature_id& a, const Feature_id& b) const { return b.dimension == 2 && has(wedges(a), b.index); }
 
   std::vector<std::vector<Wedge>> of_segment_, of_facet_;
-  std::vector<std::vector<Index>> facets_of_;  ///< of each segment
   std::vector<Region_3> boxes_;
   std::vector<Crossing_3> crossings_;
 };
