@@ -26,10 +26,6 @@ using Domain = Planarizer::Domain;
 
 /// Of the tolerance: what makes a facet plane may not bring its vertices as close to each other as that.
 constexpr double lowest = 1.0 / 64;
-/// How often triangles are fused: others may lie within the tolerance of one plane once their vertices have moved. Once is enough for planes, but leaves
-/// needles beside them (a30: 49,326 exempt tetrahedra instead of 5,244; a29 has 3 % more of all). Not until there are no others, since a smooth surface
-/// would become ever larger facets.
-constexpr int fusings = 2;
 /// How often facets that would intersect others are given up.
 constexpr int most_rounds = 8;
 
@@ -153,13 +149,13 @@ struct Flattened {
   Plc plc;
   Planarization done;
   bool is_final;  ///< no other triangles are fused the next time
-  std::optional<Domain> domain;  ///< of `plc`, if that is known
+  Planarized known;  ///< of `plc`
 };
 
-/// A PLC, which `domain` was made from, without its low vertices that may go, where it has some.
-Flattened without_low_vertices(Plc plc, Domain domain, const Low_corners& low, const Planarization& done, bool is_final) {
-  if (low.some_inside()) return {without_vertices(std::move(plc), domain, low.inside), done, true, std::nullopt};
-  return {std::move(plc), done, is_final, std::move(domain)};
+/// A PLC, whose domain is `known`, without its low vertices that may go, where it has some.
+Flattened without_low_vertices(Plc plc, Planarized known, const Low_corners& low, const Planarization& done, bool is_final) {
+  if (low.some_inside()) return {without_vertices(std::move(plc), *known.domain, low.inside), done, true, {}};
+  return {std::move(plc), done, is_final, std::move(known)};
 }
 
 /// Makes the facets plane that are fused now; none where that is not valid, whatever is given up.
@@ -175,9 +171,9 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
     const std::vector<Vec_3> points = planarizer.solution();
     if (planarizer.is_at(points)) {
       Planarization done = planarizer.report(points);
-      if (done.is_none()) return Flattened{ungrouped(std::move(plc)), done, true, std::move(domain)};
+      if (done.is_none()) return Flattened{ungrouped(std::move(plc)), done, true, {std::move(domain), std::nullopt}};
       const Low_corners low = low_corners(domain, input, lowest * domain.tolerance);
-      return without_low_vertices(std::move(plc), std::move(domain), low, done, true);
+      return without_low_vertices(std::move(plc), {std::move(domain), std::nullopt}, low, done, true);
     }
     if (!guard && is_guarded) guard.emplace(domain);
     Plc result = moved(plc, domain, points);
@@ -187,12 +183,13 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
       const Low_corners low = low_corners(plane, input, lowest * plane.tolerance);
       concerned = low.facets;
       if (guard) guard->add_sharpened(plane, concerned);
-      for (const Input_problem& problem : validate_domain_3(plane, input.facets.size())) {
+      std::vector<Input_problem> problems = validate_domain_3(plane, input.facets.size());
+      for (const Input_problem& problem : problems) {
         // Where nothing has moved that stays, whatever else is given up: dirty files have thousands of these.
         if (!problem.facets.empty() && planarizer.leaves(problem.facets, points)) return std::nullopt;
         concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
       }
-      if (concerned.empty()) return without_low_vertices(std::move(result), std::move(plane), low, planarizer.report(points), false);
+      if (concerned.empty()) return without_low_vertices(std::move(result), {std::move(plane), std::move(problems)}, low, planarizer.report(points), false);
     } catch (const Input_error& error) {
       for (const Input_problem& problem : error.problems())
         concerned.insert(concerned.end(), problem.facets.begin(), problem.facets.end());
@@ -205,9 +202,9 @@ std::optional<Flattened> flattened(Plc plc, const Plc& input, double coplanar_to
 
 }  // namespace
 
-Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done, std::optional<Domain>* domain) {
-  if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done, domain);
-  Flattened best{ungrouped(plc), {}, false, std::nullopt};
+Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Planarization* done, Planarized* result, int fusings) {
+  if (exponent_for(plc) != 0) return planarize(normalized(plc), coplanar_tolerance, triangulate, done, result, fusings);
+  Flattened best{ungrouped(plc), {}, false, {}};
   for (int fusing = 0; fusing < fusings && !best.is_final; ++fusing) {
     std::optional<Flattened> next = flattened(ungrouped(best.plc), plc, coplanar_tolerance, triangulate, true);
     // As fused, facets may intersect that do not once they are plane: within noise, a small angle is better than none.
@@ -216,7 +213,7 @@ Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate, Plana
     best = std::move(*next);
   }
   if (done && !best.done.is_none()) *done = best.done;
-  if (domain) *domain = std::move(best.domain);
+  if (result) *result = std::move(best.known);
   return std::move(best.plc);
 }
 

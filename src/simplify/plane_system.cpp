@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <Eigen/Dense>
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 
@@ -21,6 +23,12 @@ constexpr double plane_weight = 1e-6;
 constexpr double damping = 1e-8;
 /// A step that leaves less of the error than this is followed by one with the same decomposition.
 constexpr double much_closer = 0.1;
+/// For a rough step: planes at less than a hundredth of a radian to each other are left apart, which keeps the number of iterations low (some
+/// 100 for 100,000 facets).
+constexpr double rough_damping = 1e-4;
+constexpr double rough_error = 1e-2;
+constexpr int rough_iterations = 200;
+constexpr std::size_t most_for_rough_step = 100;  ///< facets at one vertex, whose pairs fill memory
 
 /// A plane through points, with coordinates in it that are at most 1.
 struct Frame {
@@ -49,6 +57,12 @@ struct Frame {
 };
 
 }  // namespace
+
+Vec_3 Plane_system::movable(Index vertex, Vec_3 normal) const {
+  for (int d = 0; d < 3; ++d)
+    if (fixed_[vertex][d]) normal[d] = 0;
+  return normal;
+}
 
 double Plane_system::bend(const Vertices& facet, const std::vector<Vec_3>& points) {
   return facet.size() > 3 ? Frame(facet, points).positions.col(2).cwiseAbs().maxCoeff() : 0;
@@ -80,10 +94,7 @@ class Plane_system::Linearization {
         entries.emplace_back(row, row, damping);
         entries.emplace_back(plane, row, 1);
         for (Index d = 0; d < 2; ++d) entries.emplace_back(plane + 1 + d, row, frames[k].positions(i, d));
-        Vec_3 normal = frames[k].normal;
-        for (int d = 0; d < 3; ++d)
-          if (system.fixed_[facet[i]][d]) normal[d] = 0;
-        uses_.push_back({facet[i], row, normal});
+        uses_.push_back({facet[i], row, system.movable(facet[i], frames[k].normal)});
       }
       normals_.push_back(frames[k].normal);
     }
@@ -125,6 +136,104 @@ class Plane_system::Linearization {
   Eigen::SimplicialLDLT<Matrix> ldlt_;
   bool is_analyzed_ = false;
 };
+
+/// The same system with the multipliers eliminated instead: those of a vertex depend on no others, and what is left,
+///
+///     (B^T (A A^T + damping)^-1 B + plane_weight) y = B^T (A A^T + damping)^-1 b,
+///
+/// is symmetric and positive definite, so that conjugate gradients need no decomposition.
+class Plane_system::Rough_step {
+ public:
+  Rough_step(const Plane_system& system, const std::vector<Index>& facets, const std::vector<Frame>& frames) : frames_(frames) {
+    for (Index k = 0; k < facets.size(); ++k) {
+      const Vertices& facet = system.facets_[facets[k]];
+      for (Index i = 0; i < facet.size(); ++i) uses_.push_back({facet[i], k, i, system.movable(facet[i], frames[k].normal)});
+    }
+    std::ranges::stable_sort(uses_, {}, &Use::vertex);
+    for (std::size_t i = 0, j = 0; i < uses_.size(); i = j) {
+      while (j < uses_.size() && uses_[j].vertex == uses_[i].vertex) ++j;
+      vertices_.push_back({std::span(uses_).subspan(i, j - i), {}});
+    }
+  }
+
+  /// How many of the facets are at one vertex: each pair of them is nine entries of the system.
+  std::size_t most_at_vertex() const {
+    return vertices_.empty() ? 0 : std::ranges::max_element(vertices_, {}, [](const Vertex& v) { return v.uses.size(); })->uses.size();
+  }
+
+  void move(std::vector<Vec_3>& points) {
+    const auto unknowns = static_cast<Eigen::Index>(3 * frames_.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+    for (Eigen::Index i = 0; i < unknowns; ++i) entries.emplace_back(i, i, plane_weight);
+    for (Vertex& v : vertices_) {
+      const auto n = static_cast<Eigen::Index>(v.uses.size());
+      Eigen::MatrixXd gram(n, n), planes(n, 3);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        planes.row(i) = plane(v.uses[i]);
+        for (Eigen::Index j = 0; j < n; ++j) gram(i, j) = dot(v.uses[i].normal, v.uses[j].normal) + (i == j ? rough_damping : 0);
+      }
+      v.inverse = gram.inverse();
+      const Eigen::VectorXd multipliers = v.inverse * offsets(v);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Eigen::Index row = 3 * v.uses[i].plane;
+        right.segment<3>(row) += multipliers[i] * planes.row(i).transpose();
+        for (Eigen::Index j = 0; j < n; ++j)
+          for (Eigen::Index c = 0; c < 3; ++c)
+            for (Eigen::Index d = 0; d < 3; ++d)
+              entries.emplace_back(row + c, 3 * v.uses[j].plane + d, v.inverse(i, j) * planes(i, c) * planes(j, d));
+      }
+    }
+    Matrix matrix(unknowns, unknowns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> gradients(matrix);
+    gradients.setMaxIterations(rough_iterations);
+    gradients.setTolerance(rough_error);
+    const Eigen::VectorXd moved = gradients.solve(right);
+    for (const Vertex& v : vertices_) {
+      Eigen::VectorXd left = offsets(v);
+      for (Eigen::Index i = 0; i < left.size(); ++i) left[i] -= plane(v.uses[i]) * moved.segment<3>(3 * v.uses[i].plane);
+      const Eigen::VectorXd multipliers = v.inverse * left;
+      for (Eigen::Index i = 0; i < left.size(); ++i) points[v.uses[i].vertex] = points[v.uses[i].vertex] + multipliers[i] * v.uses[i].normal;
+    }
+  }
+
+ private:
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  struct Use {
+    Index vertex, plane, row;  ///< the row in the frame of that plane
+    Vec_3 normal;
+  };
+  struct Vertex {
+    std::span<const Use> uses;
+    Eigen::MatrixXd inverse;
+  };
+
+  /// How far this vertex moves off the plane as that moves and turns.
+  Eigen::RowVector3d plane(const Use& u) const {
+    const Frame::Positions& p = frames_[u.plane].positions;
+    return {1, p(u.row, 0), p(u.row, 1)};
+  }
+
+  Eigen::VectorXd offsets(const Vertex& v) const {
+    Eigen::VectorXd result(v.uses.size());
+    for (std::size_t i = 0; i < v.uses.size(); ++i) result[i] = -frames_[v.uses[i].plane].positions(v.uses[i].row, 2);
+    return result;
+  }
+
+  const std::vector<Frame>& frames_;
+  std::vector<Use> uses_;
+  std::vector<Vertex> vertices_;
+};
+
+void Plane_system::approach(std::vector<Vec_3>& points, const std::vector<Index>& facets) const {
+  std::vector<Frame> frames;
+  for (const Index f : facets) frames.emplace_back(facets_[f], points);
+  Rough_step step(*this, facets, frames);
+  if (step.most_at_vertex() > most_for_rough_step) return solve(points, facets, 1);
+  step.move(points);
+}
 
 void Plane_system::solve(std::vector<Vec_3>& points, const std::vector<Index>& facets, int most_steps) const {
   Linearization linearization;

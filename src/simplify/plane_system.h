@@ -27,11 +27,18 @@ class Plane_system {
   /// as many. Facets without a common vertex may be solved at once.
   void solve(std::vector<Vec_3>& points, const std::vector<Index>& facets, int most_steps) const;
 
+  /// Moves the points roughly as a step of that does, in a small part of the time where many facets hang together.
+  void approach(std::vector<Vec_3>& points, const std::vector<Index>& facets) const;
+
   /// Largest distance of the points from the plane that fits them best (least squares).
   static double bend(const Vertices& facet, const std::vector<Vec_3>& points);
 
  private:
   class Linearization;
+  class Rough_step;
+
+  /// A normal without the axes along which the vertex may not move.
+  Vec_3 movable(Index vertex, Vec_3 normal) const;
 
   const std::vector<Vertices>& facets_;
   const std::vector<Fixed_axes>& fixed_;

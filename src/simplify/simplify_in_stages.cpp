@@ -18,6 +18,11 @@ namespace {
 constexpr double for_simplification = 0.25;
 constexpr double for_planarization = 0.2;
 constexpr double step = 10;  ///< how much wider each pass is than the one before
+/// How often the widest pass fuses triangles, and that of noise where it is the only one. Once is enough for planes, but leaves needles beside them (a30:
+/// 49,326 exempt tetrahedra instead of 5,244; a29 has 3 % more of all). Passes before it fuse once, since the next one fuses anew, and so does what finishes:
+/// of 145 models, beside twice for all, within 1e-4 of the diagonal 4 % fewer tetrahedra, 9 % fewer exempt ones and 15 % less time to read and simplify,
+/// within 1e-3 5 % more, 2 % fewer and 38 % less.
+constexpr int fusings = 2;
 
 }  // namespace
 
@@ -37,27 +42,28 @@ Simplification_stages::Simplification_stages(double tolerance, double diagonal, 
 
 Stage Simplification_stages::make_plane(const Plc& plc, const Stage* noise_only) const {
   const bool is_first_known = noise_only && !passes_.empty() && noise_only->done.simplification.is_none();
-  Stage stage{is_first_known ? noise_only->plc : plc, {}, std::nullopt};
+  Stage stage{is_first_known ? noise_only->plc : plc, {}, {}};
   if (is_first_known) stage.done.planarization = noise_only->done.planarization;
-  for (std::size_t i = is_first_known ? 1 : 0; i < passes_.size(); ++i) planarize_within(stage, passes_[i]);
+  for (std::size_t i = is_first_known ? 1 : 0; i < passes_.size(); ++i)
+    planarize_within(stage, passes_[i], i + 1 < passes_.size() ? 1 : fusings);
   return stage;
 }
 
 bool Simplification_stages::take_away(Stage& stage, std::optional<int> most_rounds) const {
   if (!take_away_once(stage, most_rounds)) return false;
   if (passes_.empty()) return true;
-  planarize_within(stage, passes_.back());
+  planarize_within(stage, passes_.back(), fusings);
   take_away_once(stage, most_rounds);  // where two planes became one, what was between them is left as edges a thousandth as long
   return true;
 }
 
-void Simplification_stages::finish(Stage& stage) const { planarize_within(stage, coplanar_tolerance_); }
+void Simplification_stages::finish(Stage& stage) const { planarize_within(stage, coplanar_tolerance_, passes_.empty() ? fusings : 1); }
 
 bool Simplification_stages::take_away_once(Stage& stage, std::optional<int> most_rounds) const {
   Simplification now;
   stage.plc = simplify(stage.plc, passes_.empty() ? tolerance_ : for_simplification * tolerance_, &now, most_rounds);
   if (now.is_none()) return false;
-  stage.domain.reset();
+  stage.known = {};
   auto& done = stage.done.simplification;
   done.facets = now.facets;
   done.collapsed_edges += now.collapsed_edges;
@@ -66,10 +72,10 @@ bool Simplification_stages::take_away_once(Stage& stage, std::optional<int> most
   return true;
 }
 
-void Simplification_stages::planarize_within(Stage& stage, double coplanar_tolerance) const {
+void Simplification_stages::planarize_within(Stage& stage, double coplanar_tolerance, int fusings_at_most) const {
   try {
     Planarization now;
-    stage.plc = planarize(stage.plc, coplanar_tolerance, triangulate_, &now, &stage.domain);
+    stage.plc = planarize(stage.plc, coplanar_tolerance, triangulate_, &now, &stage.known, fusings_at_most);
     auto& done = stage.done.planarization;
     done.flattened_facets += now.flattened_facets;
     done.bent_facets = now.bent_facets;
@@ -77,7 +83,7 @@ void Simplification_stages::planarize_within(Stage& stage, double coplanar_toler
     done.largest_change += now.largest_change;
   } catch (const Input_error&) {
     // Fused this wide, facets are not valid; what is wrong with the input itself is said when that is understood.
-    stage.domain.reset();
+    stage.known = {};
   }
 }
 

@@ -13,7 +13,7 @@ namespace pgdr::simplify_detail {
 struct Stage {
   Plc plc;
   Simplification_within done;
-  std::optional<Domain_3<Default_kernel>> domain;  ///< as the last `planarize` gave it
+  Planarized known;  ///< of `plc`
 };
 
 /// What `simplify_within` does with one tolerance, step by step, without looking at what comes of it: it may be invalid where features are closer to each
@@ -33,7 +33,7 @@ class Simplification_stages {
 
  private:
   bool take_away_once(Stage& stage, std::optional<int> most_rounds) const;
-  void planarize_within(Stage& stage, double coplanar_tolerance) const;
+  void planarize_within(Stage& stage, double coplanar_tolerance, int fusings_at_most) const;
 
   double tolerance_, coplanar_tolerance_;
   bool triangulate_;

@@ -34,9 +34,10 @@ std::optional<Understood> valid(const Plc& plc, double coplanar_tolerance, bool 
 
 /// The same for its PLC, and takes its domain.
 std::optional<Understood> valid(Stage& stage, double coplanar_tolerance, bool triangulate) {
-  if (!stage.domain) return valid(stage.plc, coplanar_tolerance, triangulate);
-  Understood understood{std::move(*std::exchange(stage.domain, std::nullopt)), {}};
-  understood.problems = validate_domain_3(understood.domain);
+  Planarized known = std::exchange(stage.known, {});
+  if (!known.domain) return valid(stage.plc, coplanar_tolerance, triangulate);
+  if (!known.problems) known.problems = validate_domain_3(*known.domain);
+  Understood understood{std::move(*known.domain), std::move(*known.problems)};
   if (!understood.is_valid()) return std::nullopt;
   return understood;
 }
@@ -56,8 +57,8 @@ constexpr int few_rounds = 4;
 
 /// Whether nothing needs to be taken away from what was made plane: it has no needles, and half the tetrahedra at most.
 bool is_enough(const Stage& planes, const std::optional<Narrowness>& without) {
-  if (!planes.domain || !without) return false;
-  const Narrowness n = narrowness(*planes.domain);
+  if (!planes.known.domain || !without) return false;
+  const Narrowness n = narrowness(*planes.known.domain);
   return n.halvings == 0 && n.tetrahedra() < without->tetrahedra() / 2;
 }
 
@@ -91,7 +92,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   of_noise.finish(noise);
   // What moves vertices looks itself whether the result is valid, so that it is not understood for that; what takes them away does not know what is fused.
   std::optional<Understood> before;
-  if (is_wide || noise.domain || !noise.done.simplification.is_none()) before = valid(noise, coplanar_tolerance, triangulate);
+  if (is_wide || noise.known.domain || !noise.done.simplification.is_none()) before = valid(noise, coplanar_tolerance, triangulate);
   if (is_wide) {
     std::optional<Narrowness> narrow;
     if (before) narrow = narrowness(before->domain);
@@ -107,7 +108,7 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
         if (auto now = valid(stage, coplanar_tolerance, triangulate)) candidates.emplace_back(std::move(stage), std::move(*now), is_all);
       };
       // Where planes are enough, no time is spent on what cannot be taken away without leaving needles.
-      Stage others{planes.plc, planes.done, std::nullopt};
+      Stage others{planes.plc, planes.done, {}};
       const std::optional<int> most_rounds = is_enough(planes, narrow) ? std::optional(few_rounds) : std::nullopt;
       const bool is_taken = stages.take_away(others, most_rounds), is_all = !is_taken && !most_rounds;
       if (is_all && planes.done.is_none()) break;

@@ -233,3 +233,31 @@ TEST_CASE("what was made plane together is what is fused") {
   for (auto& f : free.facets) f.group = 0;
   CHECK(facets_within(free, tolerance) < facets);
 }
+
+TEST_CASE("more facets that hang together than are decomposed at once become plane, too") {
+  constexpr Index around = 130, across = 90;
+  constexpr double turn = 2 * 3.14159265358979323846, wide = 2e-5;
+  Seeded_random random(7);
+  Plc torus;
+  for (Index i = 0; i < around; ++i)
+    for (Index j = 0; j < across; ++j) {
+      const double u = turn * i / around, v = turn * j / across, r = 1 + random.between(-2e-5, 2e-5);
+      torus.vertices.emplace_back((3 + r * std::cos(v)) * std::cos(u), (3 + r * std::cos(v)) * std::sin(u), r * std::sin(v));
+    }
+  for (Index i = 0; i < around; ++i)
+    for (Index j = 0; j < across; ++j) {
+      const Index next_i = (i + 1) % around, next_j = (j + 1) % across;
+      const Index a = i * across + j, b = next_i * across + j, c = next_i * across + next_j, d = i * across + next_j;
+      for (const std::vector<Index>& triangle : {std::vector{a, b, c}, {a, c, d}}) torus.facets.push_back({{triangle}, {}, 0, 0});
+    }
+  const std::size_t facets = facets_within(torus, wide);
+  REQUIRE(facets > 10'000);
+  REQUIRE(facets_within(torus, rounding) == torus.facets.size());
+  Planarization done;
+  const Plc plane = planarize(torus, wide, false, &done);
+  CHECK(done.bent_facets < facets / 100);
+  CHECK(facets_within(plane, rounding) < facets + facets / 10);
+  CHECK(farthest_move(torus, plane) < 16 * wide * make_domain_3(torus).diagonal);
+  CHECK(meets_nowhere(plane));
+  CHECK(with_threads(2, [&] { return planarize(torus, wide); }).vertices == plane.vertices);
+}

@@ -17,7 +17,7 @@ struct Territory_id {
 
   std::uint32_t number = 0;  ///< 0: nobody else is at work, and everything is own
   std::uint32_t first = 0;   ///< lower numbers are of earlier divisions; this one is nobody's
-  Region_3 region;
+  Region_3 region{};
 
   bool is_everything() const { return number == 0; }
 };

@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include <pgdr/domain/default_kernel.h>
 #include <pgdr/domain/domain_3.h>
+#include <pgdr/domain/input_error.h>
 
 namespace pgdr {
 
@@ -18,6 +20,12 @@ struct Planarization {
   double largest_change = 0;  ///< of a vertex, off the plane of a facet that it is on
 
   bool is_none() const { return moved_vertices == 0; }
+};
+
+/// What is known of its result: with a million facets it takes seconds to find out.
+struct Planarized {
+  std::optional<Domain_3<Default_kernel>> domain;       ///< what `make_domain_3` makes of it
+  std::optional<std::vector<Input_problem>> problems;  ///< what `validate_domain_3` finds in that
 };
 
 /// Moves vertices so that fused facets are plane to double precision.
@@ -33,10 +41,11 @@ struct Planarization {
 /// what it was. (Within noise it may, if facets would intersect otherwise.) The facets of the result are grouped as they are plane, so that `make_domain_3` fuses these and no others.
 /// \param coplanar_tolerance, triangulate as `make_domain_3` will understand the PLC. The tolerance is the limit, too; along their facets
 ///   vertices may move up to 16 times as far, which is what facets at small angles to each other need.
-/// \param domain what `make_domain_3` makes of the result, where that is known: with a million facets it takes seconds
+/// \param fusings how often triangles are fused: others may lie within the tolerance of one plane once their vertices have moved. Not until there are no
+///   others, since a smooth surface would become ever larger facets
 /// \return `plc` itself where nothing was to be done. Throws what `make_domain_3` throws
 Plc planarize(const Plc& plc, double coplanar_tolerance, bool triangulate = false, Planarization* done = nullptr,
-              std::optional<Domain_3<Default_kernel>>* domain = nullptr);
+              Planarized* result = nullptr, int fusings = 2);
 
 }  // namespace pgdr
 

@@ -44,33 +44,41 @@ class Facet_fuser {
   std::vector<Facet_group> fuse() {
     group_of_.assign(pieces_.size(), none);
     find_alone();
-    std::vector<Facet_group> groups;
-    groups.reserve(pieces_.size());
+    std::vector<Facet_group> several;  // of more than one piece
+    std::vector<Index> seeds;
+    std::vector<Index> number(pieces_.size(), none);  // in `several`, of the group with this seed
     for (const Index seed : largest_first()) {
       if (group_of_[seed] != none) continue;
-      const Index id = static_cast<Index>(groups.size());
-      Facet_group group{grow(seed, id), pieces_[seed].plane, {}, {}};
-      if (group.pieces.size() > 1 && !triangulate(group, id)) {
-        // The projections overlap: each piece stays by itself.
-        for (std::size_t i = 0; i < group.pieces.size(); ++i) {
-          const Index alone = group.pieces[i];
-          group_of_[alone] = id + static_cast<Index>(i);
-          groups.push_back({{alone}, pieces_[alone].plane, {}, {}});
-        }
-      } else {
-        groups.push_back(std::move(group));
-      }
+      group_of_[seed] = seed;
+      if (is_alone_[seed]) continue;
+      Facet_group group{grow(seed), pieces_[seed].plane, {}, {}};
+      if (group.pieces.size() == 1) continue;
+      number[seed] = static_cast<Index>(several.size());
+      seeds.push_back(seed);
+      several.push_back(std::move(group));
     }
-    std::vector<Index> order;
-    order.reserve(groups.size());
+    std::vector<char> is_plane(several.size());
+    parallel_for(0, several.size(), [&](std::size_t i) { is_plane[i] = triangulate(several[i], seeds[i]); });
+    for (std::size_t i = 0; i < several.size(); ++i) {
+      if (is_plane[i]) continue;
+      // The projections overlap: each piece stays by itself.
+      number[seeds[i]] = none;
+      for (const Index alone : several[i].pieces) group_of_[alone] = alone;
+    }
+    std::vector<Index> first_pieces;
+    first_pieces.reserve(pieces_.size());
     for (Index p = 0; p < pieces_.size(); ++p)
-      if (groups[group_of_[p]].pieces[0] == p) order.push_back(group_of_[p]);
-    std::vector<Facet_group> ordered(groups.size());
-    parallel_for_chunks(groups.size(), default_grain, [&](std::size_t first, std::size_t last) {
+      if (const Index n = number[group_of_[p]]; n == none || several[n].pieces[0] == p) first_pieces.push_back(p);
+    std::vector<Facet_group> ordered(first_pieces.size());
+    parallel_for_chunks(ordered.size(), default_grain, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        Facet_group& g = ordered[i] = std::move(groups[order[i]]);
-        if (g.pieces.size() == 1) g.triangles.assign(pieces_[g.pieces[0]].triangles.begin(), pieces_[g.pieces[0]].triangles.end());
-        g.segments = group_segments(g, order[i]);
+        const Index p = first_pieces[i], seed = group_of_[p];
+        const auto& triangles = pieces_[p].triangles;
+        if (number[seed] != none)
+          ordered[i] = std::move(several[number[seed]]);
+        else
+          ordered[i] = {{p}, pieces_[p].plane, {triangles.begin(), triangles.end()}, {}};
+        ordered[i].segments = group_segments(ordered[i], seed);
       }
     });
     return ordered;
@@ -155,11 +163,9 @@ class Facet_fuser {
     });
   }
 
-  std::vector<Index> grow(Index seed, Index id) {
+  std::vector<Index> grow(Index seed) {
     const Facet_plane& plane = pieces_[seed].plane;
     std::vector<Index> members{seed};
-    group_of_[seed] = id;
-    if (is_alone_[seed]) return members;
     for (std::size_t next = 0; next < members.size(); ++next) {
       const Index p = members[next];
       for (const Index edge : edges_of(p)) {
@@ -170,7 +176,7 @@ class Facet_fuser {
         const Edge_use& there = uses_[e.first_use + (first ? 1 : 0)];
         if (group_of_[there.piece] != none || !in_plane(there.piece, plane)) continue;
         if (!opposite_sides(e.ends, here.apex, there.apex, plane.normal)) continue;
-        group_of_[there.piece] = id;
+        group_of_[there.piece] = seed;
         members.push_back(there.piece);
       }
     }
@@ -198,23 +204,23 @@ class Facet_fuser {
 
   Work_point point(Index v) const { return to_work_point(points_[v]); }
 
-  bool separates(const Edge& e, Index id) const {
+  bool separates(const Edge& e, Index seed) const {
     if (!e.fusable) return true;
-    return group_of_[uses_[e.first_use].piece] != id || group_of_[uses_[e.first_use + 1].piece] != id;
+    return group_of_[uses_[e.first_use].piece] != seed || group_of_[uses_[e.first_use + 1].piece] != seed;
   }
 
-  std::vector<Index_pair> group_segments(const Facet_group& group, Index id) const {
+  std::vector<Index_pair> group_segments(const Facet_group& group, Index seed) const {
     std::vector<Index_pair> result;
     for (Index p : group.pieces)
       for (const Index edge : edges_of(p))
-        if (separates(edges_[edge], id)) result.push_back(edges_[edge].ends);
+        if (separates(edges_[edge], seed)) result.push_back(edges_[edge].ends);
     sort_unique(result);
     return result;
   }
 
   /// \return false when the projections of the pieces overlap, so that they are no planar facet together.
-  bool triangulate(Facet_group& group, Index id) const {
-    const std::vector<Index_pair> segments = group_segments(group, id);
+  bool triangulate(Facet_group& group, Index seed) const {
+    const std::vector<Index_pair> segments = group_segments(group, seed);
     std::vector<Index> used;
     std::size_t expected = 0;
     for (Index p : group.pieces) {
@@ -259,7 +265,7 @@ class Facet_fuser {
   std::vector<Index> first_edge_;  ///< of each piece, in `edge_ids_`, and the end
   std::vector<Index> edge_ids_;
   std::vector<char> is_alone_;  ///< of each piece, whether none of those beside it lies in its plane
-  std::vector<Index> group_of_;
+  std::vector<Index> group_of_;  ///< of each piece, the seed of its group
 };
 
 }  // namespace pgdr::domain_detail
