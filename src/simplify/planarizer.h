@@ -67,11 +67,11 @@ class Planarizer {
   std::vector<Vec_3> solution() {
     // Who moves too far is seen after a step or two. With the tolerance of noise there are few rounds.
     for (int round = 0; is_wide(domain_.tolerance, domain_.diagonal) && round < careful_rounds; ++round) {
-      solve(rough_, rough_steps);
+      solve(rough_, true);
       if (!give_up_what_is_far(rough_, true, false)) break;
     }
     for (int round = 0;; ++round) {
-      solve(full_, most_steps);
+      solve(full_, false);
       if (!give_up_what_is_far(full_, round < careful_rounds, true)) return full_.points;
     }
   }
@@ -116,9 +116,7 @@ class Planarizer {
   /// many rounds, all of them.
   static constexpr int careful_rounds = 16;
   /// Of Newton's method: three reach double precision from a thousandth of the size of a facet.
-  static constexpr int most_steps = 8, rough_steps = 2;
-  /// Facets of a group, for rough steps: 94,000 take 17 seconds for each decomposition.
-  static constexpr std::size_t most_decomposed = 10000;
+  static constexpr int most_steps = 8;
 
   /// Those that hang together with one that is bent: no other can change.
   void choose_facets() {
@@ -189,7 +187,7 @@ class Planarizer {
   }
 
   /// Of groups that have lost no facet since the last time nothing is asked anew.
-  void solve(Solution& solution, int steps) {
+  void solve(Solution& solution, bool is_rough) {
     fix_axes();
     const Plane_system system(facets_, fixed_, bent * domain_.diagonal);
     std::vector<const Group*> last(facets_.size(), nullptr);
@@ -208,9 +206,8 @@ class Planarizer {
     solution.points = std::move(points);
     solution.bends.resize(facets_.size());
     parallel_for(0, changed.size(), [&](std::size_t i) {
-      if (steps == rough_steps && changed[i].size() > most_decomposed) return system.approach(solution.points, changed[i]);
-      system.solve(solution.points, changed[i], steps);
-      if (steps == rough_steps) return;
+      if (is_rough) return system.approach(solution.points, changed[i]);
+      system.solve(solution.points, changed[i], most_steps);
       for (const Index f : changed[i]) solution.bends[f] = Plane_system::bend(facets_[f], solution.points);
     });
   }

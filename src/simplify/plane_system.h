@@ -27,7 +27,7 @@ class Plane_system {
   /// as many. Facets without a common vertex may be solved at once.
   void solve(std::vector<Vec_3>& points, const std::vector<Index>& facets, int most_steps) const;
 
-  /// Moves the points roughly as a step of that does, in a small part of the time where many facets hang together.
+  /// Moves the points roughly to where that moves them: who goes too far is seen, in a small part of the time.
   void approach(std::vector<Vec_3>& points, const std::vector<Index>& facets) const;
 
   /// Largest distance of the points from the plane that fits them best (least squares).
