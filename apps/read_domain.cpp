@@ -11,6 +11,7 @@
 #include <pgdr/domain/valid_domain.h>
 #include <pgdr/io/read_plc.h>
 #include <pgdr/parameters.h>
+#include <pgdr/repair/degenerate_facets.h>
 #include <pgdr/report/format.h>
 
 #include "arguments.h"
@@ -122,12 +123,15 @@ double bounding_diagonal(const std::vector<Plc>& parts) {
   return pgdr::bounding_diagonal(all);
 }
 
-/// What is in the files, repaired if it shall be, or if there are several.
+/// What is in the files, repaired if it shall be, or if there are several. Of a surface, facets without area are taken away in any case.
 Plc repaired_input(const std::vector<std::string>& files, const Domain_options& options, Repair_report& report) {
   if (options.markers_from == "colors") require_one_of_format("--markers-from colors", files, {".off", ".ply"});
   std::vector<Plc> parts;
   for (const std::string& file : files) parts.push_back(normalized(read_plc(file, source_of_markers(options))));
-  if (!options.repair && parts.size() == 1) return std::move(parts[0]);
+  if (!options.repair && parts.size() == 1) {
+    if (is_surface_file(files[0])) report.degenerate_triangles = take_degenerate_facets_away(parts[0]);
+    return std::move(parts[0]);
+  }
   const double diagonal = bounding_diagonal(parts);
   const Length gap = options.tolerance.empty() ? default_tolerance : parse_length("--tolerance", options.tolerance);
   const Length hole = options.largest_hole.empty() ? Length{options.repair ? 0.5 : 0.0, true} : parse_length("--fill-holes", options.largest_hole);

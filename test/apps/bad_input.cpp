@@ -133,8 +133,8 @@ TEST_CASE("what is wrong is written for ParaView, too", "[apps]") {
   CHECK(std::count(open.err.begin(), open.err.end(), '\n') == 4);  // and what may help
   CHECK(count("NumberOfCells") == 6);
   // What cannot be understood at all is drawn from the file's own polygons.
-  sandbox.write("flat.off", tetrahedron_off("2 0 0"));
-  CHECK(sandbox.run("info flat.off --problems problems.vtu").exit_code == 3);
+  sandbox.write("flat.poly", "4 3 0\n0 0 0 0\n1 1 0 0\n2 2 0 0\n3 0 1 1\n4 0\n1\n3 0 1 2\n1\n3 0 1 3\n1\n3 1 2 3\n1\n3 0 2 3\n0\n");
+  CHECK(sandbox.run("info flat.poly --problems problems.vtu").exit_code == 3);
   CHECK(count("NumberOfCells") == 1);
   // Nothing wrong: no cells, so that no old file misleads.
   CHECK(sandbox.run("info " + shape("cube.poly") + " --problems problems.vtu").exit_code == 0);

@@ -80,3 +80,19 @@ TEST_CASE("several inputs are an assembly, a region each", "[apps]") {
   CHECK(sandbox.run("check out.mesh --plc a.off --plc b.off").exit_code == 0);
   CHECK(sandbox.run("mesh a.off a.off b.off -o a.off").exit_code == 2);
 }
+
+TEST_CASE("a triangle without area is no reason to refuse a surface, and none of a complex", "[apps]") {
+  const Sandbox sandbox;
+  const std::string vertices = "0 0 0\n4 0 0\n0 4 0\n0 0 4\n1 0 0\n";
+  std::ofstream(sandbox / "cap.off") << "OFF\n5 6 0\n" << vertices << "3 0 2 1\n3 0 3 2\n3 1 2 3\n3 0 1 4\n3 0 4 3\n3 4 1 3\n";
+  const Run run = sandbox.run("mesh cap.off --tolerance 0 -o out.mesh --stats s.json");
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const nlohmann::json stats = nlohmann::json::parse(file_text(sandbox / "s.json"));
+  CHECK(stats["repair"]["degenerate_triangles"] == 1);
+  CHECK(std::abs(stats["regions"][0]["volume"].get<double>() - 64.0 / 6) < 1e-12);
+  CHECK(sandbox.run("check out.mesh --plc cap.off --tolerance 0").exit_code == 0);
+  CHECK(sandbox.run("info cap.off").out.find("1 triangle without area taken away") != std::string::npos);
+  CHECK(sandbox.run("info cap.off --write-plc cap.poly").exit_code == 0);
+  CHECK(sandbox.run("info cap.poly").exit_code == 0);
+}

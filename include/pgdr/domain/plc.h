@@ -23,7 +23,7 @@ enum class Nesting {
 /// One facet of a PLC as the user wrote it: polygons in one plane, and seeds of its holes.
 template <class K>
 struct Plc_facet {
-  /// Vertex indices. Three or more: a closed loop; two: an internal segment; one: an internal vertex.
+  /// Vertex indices. Three or more: a closed loop; two: an internal segment; one: an internal vertex. No polygon at all: no facet.
   std::vector<std::vector<Index>> polygons;
   /// Points of the facet's plane; the part of the facet around each one is removed.
   std::vector<typename K::Point_3> holes;

@@ -78,6 +78,7 @@ class Facet_reader {
   void read(Index facet, int marker, const Facet_polygons& in, const std::vector<Explicit_segment>& extra) {
     facet_ = facet;
     marker_ = marker;
+    if (in.polygons == 0 && in.holes.empty()) return;  // taken away, and keeps its number
     if (in.collapsed || in.used.empty()) {
       report(Input_problem::Kind::degenerate_facet, "has fewer than three distinct vertices");
     } else if (in.polygons == 1 && in.loops.size() == 1 && in.loops[0].size() == 3 && in.used.size() == 3) {
