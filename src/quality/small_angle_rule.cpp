@@ -15,6 +15,7 @@
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 
+#include <pgdr/domain/bend.h>
 #include <pgdr/domain/small_angles_3.h>
 #include <pgdr/quality/measures.h>
 
@@ -99,11 +100,13 @@ class Explained_edges {
     for (std::size_t v = 0; v < shortest_at_.size(); ++v)
       if (angles.vertex_deg[v] < class_bounds_deg.back() && std::isfinite(shortest_at_[v]))
         farthest_protected_ = std::max(farthest_protected_, protected_at_vertex * shortest_at_[v]);
-    for (std::size_t f = 0; f < domain.facets.size(); ++f)
+    for (std::size_t f = 0; f < domain.facets.size(); ++f) {
+      bends_.push_back(bend(domain, Index(f)));
       for (const auto& t : domain.facets[f].triangles)
         triangle_items_.push_back(
             {Plain::Triangle_3(plain(domain, t[0]), plain(domain, t[1]), plain(domain, t[2])),
              std::uint32_t(f)});
+    }
     segments_.emplace(segment_items_.begin(), segment_items_.end());
     triangles_.emplace(triangle_items_.begin(), triangle_items_.end());
   }
@@ -129,6 +132,14 @@ class Explained_edges {
         return is_near(angles_.vertex_deg[v], CGAL::squared_distance(at, plain(domain_, v)), protected_at_vertex * shortest_at_[v]);
       });
     });
+  }
+
+  /// How far a facet at p is off its plane at most: closer than that, what is on it may lie on either side of others.
+  double bend_at(const P& p) const {
+    double result = 0;
+    for (const Feature& f : features_at(p))
+      if (f.dimension == 2) result = std::max(result, bends_[f.index]);
+    return result;
   }
 
   /// The smallest angle, in degrees, that explains how close p and q are; `no_angle` if none does.
@@ -206,6 +217,7 @@ class Explained_edges {
   double tolerance_ = 0;
   double farthest_protected_ = 0;  ///< from any small angle
   std::vector<double> shortest_at_;
+  std::vector<double> bends_;  ///< of facets
   std::vector<Tagged<Plain::Segment_3>> segment_items_;
   std::vector<Tagged<Plain::Triangle_3>> triangle_items_;
   std::optional<Aabb_tree<Plain::Segment_3>> segments_;
@@ -265,6 +277,8 @@ Small_angle_rule::Verdict Small_angle_rule::operator()(const std::array<P, 4>& c
   const double within = reach * circumradius;
   if (const auto [distance, angle] = parts_->nearest_angle(corners); distance <= within) return {Case::near, angle};
   if (std::ranges::any_of(corners, [&](const P& corner) { return parts_->edges.protects(corner, within); })) return {Case::protected_place};
+  const double shortest = std::sqrt(squared_distance(p, q));
+  if (std::ranges::any_of(corners, [&](const P& corner) { return parts_->edges.bend_at(corner) > shortest; })) return {Case::bent_facet};
   return {};
 }
 
@@ -273,6 +287,7 @@ bool Excused::add(const Small_angle_rule::Verdict& verdict) {
   if (verdict.excuse == Case::edge) ++between_[verdict.angle];
   if (verdict.excuse == Case::near) ++near_[verdict.angle];
   if (verdict.excuse == Case::protected_place) ++at_protected_;
+  if (verdict.excuse == Case::bent_facet) ++at_bent_;
   return verdict.excuse != Case::unexcused;
 }
 
@@ -283,7 +298,8 @@ std::string Excused::figures() const {
     return result;
   };
   return text("; shortest edge between what meets at an angle", by_class(between_), "; next to an angle", by_class(near_),
-              at_protected_ > 0 ? text("; next to what is protected: ", at_protected_) : "");
+              at_protected_ > 0 ? text("; next to what is protected: ", at_protected_) : "",
+              at_bent_ > 0 ? text("; shorter than a facet is bent: ", at_bent_) : "");
 }
 
 }  // namespace pgdr::quality_detail

@@ -13,10 +13,11 @@
 
 namespace pgdr::quality_detail {
 
-/// Which tetrahedra small angles of the input excuse from a bound, by those angles alone: the rule of docs/theory.md, section 11.
+/// Which tetrahedra small angles of the input excuse from a bound, by those angles alone: the rule of docs/theory.md, section 11. And those next to a
+/// facet that is bent by more than their shortest edge.
 class Small_angle_rule {
  public:
-  enum class Case { unexcused, edge, near, protected_place };
+  enum class Case { unexcused, edge, near, protected_place, bent_facet };
   /// Angles below 14.48 degrees, 30 and 60.
   static constexpr std::size_t classes = 3;
   struct Verdict {
@@ -43,7 +44,7 @@ class Excused {
 
  private:
   std::array<std::size_t, Small_angle_rule::classes> between_{}, near_{};
-  std::size_t at_protected_ = 0;
+  std::size_t at_protected_ = 0, at_bent_ = 0;
 };
 
 }  // namespace pgdr::quality_detail

@@ -277,7 +277,9 @@ TEST_CASE("What is in a bent facet stays in it on the plane, however narrow it i
       const Vec_3 m = initial.complex.on_plane(subfacet.facet, in);
       CHECK(std::abs(dot(m - pgdr::to_vec(initial.domain.facets[subfacet.facet].origin), initial.complex.plane(subfacet.facet).normal())) < 1e-12);
       CHECK(pgdr::is_in_subfacet(initial.complex, subfacet, Tr::Point(m.x, m.y, m.z)));
-      CHECK(length(initial.complex.on_sheet(t, m) - in) < 1e-12);
+      const Vec_3 lifted = initial.complex.on_sheet(t, m);
+      CHECK(length(lifted - in) < 1e-12);
+      CHECK(length(initial.complex.on_sheet(t, lifted) - lifted) < 1e-12);  // what was handed on is lifted by whom it reaches, too
       ++tried;
     }
   }

@@ -6,6 +6,7 @@
 
 #include "catch.h"
 #include "corruptions.h"
+#include "domain/shapes.h"
 #include "lattice_mesh.h"
 
 namespace {
@@ -170,6 +171,25 @@ TEST_CASE("The ratio bound is checked, and small angles of the input excuse only
   };
   REQUIRE_FALSE(across(1));
   REQUIRE(across(0.8));
+}
+
+TEST_CASE("Next to a facet that is bent, what is smaller than its bend may be poor", "[quality]") {
+  pgdr::Plc plc = pgdr_test::triangulated(pgdr_test::box());
+  plc.vertices[7] = {1, 1, 1.04};
+  const auto domain = pgdr::make_domain_3(plc, 0.05);
+  REQUIRE(domain.facets.size() == 6);
+  // A regular tetrahedron, which the bound 0.6 makes poor, at the top.
+  const auto is_poor = [&](double edge) {
+    pgdr::Indexed_mesh_3 one;
+    const double h = edge / std::sqrt(8);
+    one.points = {{0.5 + h, 0.5 + h, 1 + h}, {0.5 + h, 0.5 - h, 1 - h}, {0.5 - h, 0.5 + h, 1 - h}, {0.5 - h, 0.5 - h, 1 + h}};
+    one.point_references.assign(4, 0);
+    one.tetrahedra = {{0, 1, 2, 3}};
+    one.tetrahedron_references = {1};
+    return fails(pgdr::check_mesh(one, &domain, {0.6}), "ratio");
+  };
+  CHECK_FALSE(is_poor(0.035));
+  CHECK(is_poor(0.045));
 }
 
 TEST_CASE("Meshes that are no meshes are refused without harm", "[quality]") {
