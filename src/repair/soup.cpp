@@ -2,7 +2,7 @@
 // A PLC as triangles, and what is wrong with them one by one.
 #include <algorithm>
 #include <iterator>
-#include <numeric>
+#include <limits>
 #include <string>
 
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -27,6 +27,49 @@ struct Key {
   bool is_same_as(const Key& other) const { return part == other.part && corners == other.corners; }
 };
 
+/// Up to how many corners all triangulations of a polygon are compared (20 ms; 5 s with 600). CGAL's search among the edges of a Delaunay triangulation is fast, but
+/// of two that are as good it takes the one that it finds first, and which that is depends on the addresses of cells: of 48 holes of one file, one was filled with other
+/// triangles in one run of three.
+constexpr std::size_t most_to_compare = 100;
+/// Of the width of a larger polygon: how far off a plane it may be to be triangulated in that plane.
+constexpr double most_off_plane = 0.1;
+
+using Work_points = std::vector<domain_detail::Work_point>;
+
+/// Positions along the polygon of the corners of each triangle, ascending; none if there is no triangulation.
+std::vector<Corners> compared_triangulations(const Work_points& rim) {
+  std::vector<CGAL::Triple<int, int, int>> patch;
+  if (rim.size() <= most_to_compare) {
+    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch), CGAL::parameters::use_delaunay_triangulation(false));
+  } else {
+    const CGAL::Bbox_3 box = CGAL::bbox_3(rim.begin(), rim.end());
+    const double width = length(Vec_3{box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
+    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
+        rim, std::back_inserter(patch),
+        CGAL::parameters::use_2d_constrained_delaunay_triangulation(true).threshold_distance(most_off_plane * width).use_delaunay_triangulation(false).do_not_use_cubic_algorithm(true));
+  }
+  std::vector<Corners> result;
+  for (const auto& t : patch) {
+    Corners& c = result.emplace_back(Corners{static_cast<Index>(t.first), static_cast<Index>(t.second), static_cast<Index>(t.third)});
+    std::ranges::sort(c);
+  }
+  return result;
+}
+
+/// Where to cut a polygon in two, neither with less than a third of its corners: the ends of the shortest diagonal.
+std::pair<std::size_t, std::size_t> shortest_cut(const std::vector<Vec_3>& points, const std::vector<Index>& polygon) {
+  const std::size_t n = polygon.size(), least = n / 3;
+  std::pair<std::size_t, std::size_t> best{0, least};
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + least; j < n && j - i <= n - least; ++j)
+      if (const double d = squared_distance(points[polygon[i]], points[polygon[j]]); d < shortest) {
+        shortest = d;
+        best = {i, j};
+      }
+  return best;
+}
+
 }  // namespace
 
 bool has_area(const Soup& soup, const Corners& c) {
@@ -43,16 +86,20 @@ std::pair<Corners, bool> sorted_corners(Corners c) {
 
 std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::vector<Index>& polygon) {
   if (polygon.size() == 3) return {{polygon[0], polygon[1], polygon[2]}};
-  std::vector<domain_detail::Work_point> rim;
+  Work_points rim;
   for (const Index v : polygon) rim.push_back(to_work_point(points[v]));
-  std::vector<CGAL::Triple<int, int, int>> patch;
-  CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch));
-  std::vector<Corners> result;
-  for (const auto& t : patch) {
-    std::array<int, 3> i{t.first, t.second, t.third};
-    std::ranges::sort(i);  // along the polygon
-    Corners& c = result.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) c[k] = polygon[static_cast<std::size_t>(i[k])];
+  std::vector<Corners> result = compared_triangulations(rim);
+  for (Corners& c : result)
+    for (Index& v : c) v = polygon[v];
+  if (!result.empty() || polygon.size() <= most_to_compare) return result;
+  const auto [i, j] = shortest_cut(points, polygon);
+  const auto begin = polygon.begin() + static_cast<std::ptrdiff_t>(i), end = polygon.begin() + static_cast<std::ptrdiff_t>(j);
+  std::vector<Index> rest(polygon.begin(), begin + 1);
+  rest.insert(rest.end(), end, polygon.end());
+  for (const std::vector<Index>& part : {std::vector<Index>(begin, end + 1), rest}) {
+    const std::vector<Corners> of_part = triangulated(points, part);
+    if (of_part.empty()) return {};
+    result.insert(result.end(), of_part.begin(), of_part.end());
   }
   return result;
 }

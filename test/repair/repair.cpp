@@ -227,6 +227,39 @@ TEST_CASE("a shell within another one is a void, whichever way it faces") {
   }
 }
 
+TEST_CASE("holes with many corners are filled, flat or not, wherever memory is") {
+  Random random(7);
+  for (const Index n : {40u, 150u, 450u})
+    for (const double wave : {0.0, 0.7}) {
+      CAPTURE(n, wave);
+      Plc plc = bolt(n, 1, 0, 3, 0, 0);
+      std::erase_if(plc.facets, [&](const Facet& f) { return std::ranges::all_of(f.polygons[0], [&](Index v) { return plc.vertices[v].z() == 3; }); });
+      for (Index i = 0; i < n; ++i) {
+        const auto p = plc.vertices[n + i];
+        plc.vertices[n + i] = {p.x(), p.y(), 3 + wave * p.x() * p.y()};
+      }
+      Repair_report report;
+      const Plc whole = repair(plc, {tolerance, 10}, &report);
+      CHECK(report.filled_holes == 1);
+      CHECK(report.filling_triangles == n - 2);
+      CHECK(report.intersecting_pairs == 0);
+      CHECK(validate_domain_3(make_domain_3(whole)).empty());
+      const double expected = cylinder_volume(static_cast<int>(n), 1, 3);
+      CHECK(std::abs(std::abs(surface_volume(whole)) - expected) < (wave == 0 ? 1e-9 : 0.1) * expected);
+      std::vector<std::vector<char>> in_the_way;
+      for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 300; ++k) in_the_way.emplace_back(16 + random.below(3000));
+        for (int k = 0; k < 200; ++k) {
+          std::swap(in_the_way[random.below(static_cast<std::uint32_t>(in_the_way.size()))], in_the_way.back());
+          in_the_way.pop_back();
+        }
+        const Plc again = repair(plc, {tolerance, 10});
+        REQUIRE(again.facets.size() == whole.facets.size());
+        for (std::size_t f = 0; f < whole.facets.size(); ++f) CHECK(again.facets[f].polygons == whole.facets[f].polygons);
+      }
+    }
+}
+
 TEST_CASE("holes that are too wide, and sheets, are refused by name") {
   Plc open = as_surface(triangulated(box()));
   open.facets.erase(open.facets.begin(), open.facets.begin() + 2);  // its bottom
