@@ -21,18 +21,20 @@ using Polygon = std::vector<Index>;
 /// What lies on some edges, by the ends of each.
 using On_edges = std::map<Index_pair, std::vector<Index>>;
 
+/// Whether all corners are on one line.
+bool is_degenerate(const Plc_facet<Default_kernel>& facet, const Plc& plc) {
+  if (facet.polygons.size() != 1 || facet.polygons[0].size() < 3 || !facet.holes.empty()) return false;
+  const Polygon& polygon = facet.polygons[0];
+  const auto point = [&](Index v) { return plc.vertices[v]; };
+  const auto [a, b] = std::ranges::minmax(polygon, {}, point);
+  return std::ranges::all_of(polygon, [&, a = a, b = b](Index v) { return v == a || v == b || CGAL::collinear(point(a), point(b), point(v)); });
+}
+
 class Collinear_loops {
  public:
   explicit Collinear_loops(const Plc& plc) {
     for (const auto& p : plc.vertices) points_.push_back(to_vec(p));
     first_ = domain_detail::first_equal_vertex(points_, std::vector<char>(points_.size(), 0));
-  }
-
-  /// Whether all corners are on one line.
-  bool is_degenerate(const Polygon& polygon) const {
-    const auto point = [&](Index v) { return domain_detail::to_work_point(points_[v]); };
-    const auto [a, b] = std::ranges::minmax(polygon, {}, [&](Index v) { return key(v); });
-    return std::ranges::all_of(polygon, [&, a = a, b = b](Index v) { return CGAL::collinear(point(a), point(b), point(v)); });
   }
 
   /// Adds what lies inside the edges of a degenerate polygon of its own corners.
@@ -83,10 +85,11 @@ class Collinear_loops {
 
 std::size_t take_degenerate_facets_away(Plc& plc) {
   if (!domain_detail::unusable_input(plc).empty()) return 0;  // make_domain_3 says what is wrong
-  const Collinear_loops loops(plc);
   std::vector<std::vector<Polygon>*> degenerate;
   for (auto& facet : plc.facets)
-    if (facet.polygons.size() == 1 && facet.polygons[0].size() >= 3 && facet.holes.empty() && loops.is_degenerate(facet.polygons[0])) degenerate.push_back(&facet.polygons);
+    if (is_degenerate(facet, plc)) degenerate.push_back(&facet.polygons);
+  if (degenerate.empty()) return 0;
+  const Collinear_loops loops(plc);
   for (;;) {
     On_edges on;
     for (const auto* polygons : degenerate) loops.add_on_edges(polygons->front(), on);

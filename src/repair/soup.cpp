@@ -37,7 +37,7 @@ constexpr double most_off_plane = 0.1;
 using Work_points = std::vector<domain_detail::Work_point>;
 
 /// Positions along the polygon of the corners of each triangle, ascending; none if there is no triangulation.
-std::vector<Corners> compared_triangulations(const Work_points& rim) {
+std::vector<Corners> cgal_triangulation(const Work_points& rim) {
   std::vector<CGAL::Triple<int, int, int>> patch;
   if (rim.size() <= most_to_compare) {
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch), CGAL::parameters::use_delaunay_triangulation(false));
@@ -88,7 +88,7 @@ std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::v
   if (polygon.size() == 3) return {{polygon[0], polygon[1], polygon[2]}};
   Work_points rim;
   for (const Index v : polygon) rim.push_back(to_work_point(points[v]));
-  std::vector<Corners> result = compared_triangulations(rim);
+  std::vector<Corners> result = cgal_triangulation(rim);
   for (Corners& c : result)
     for (Index& v : c) v = polygon[v];
   if (!result.empty() || polygon.size() <= most_to_compare) return result;
