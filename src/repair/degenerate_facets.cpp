@@ -30,6 +30,7 @@ bool is_degenerate(const Plc_facet<Default_kernel>& facet, const Plc& plc) {
   return std::ranges::all_of(polygon, [&, a = a, b = b](Index v) { return v == a || v == b || CGAL::collinear(point(a), point(b), point(v)); });
 }
 
+/// Polygons that are divided where others have vertices.
 class Collinear_loops {
  public:
   explicit Collinear_loops(const Plc& plc) {

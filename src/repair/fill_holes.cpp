@@ -2,15 +2,11 @@
 #include <algorithm>
 #include <map>
 
-#include <CGAL/Bbox_3.h>
-
 #include "steps.h"
 
 namespace pgdr::repair_detail {
 
 namespace {
-
-using domain_detail::to_work_point;
 
 /// Edges with one triangle of their part, the other way round than that runs: as what fills a hole would run.
 struct Rim {
@@ -42,12 +38,6 @@ struct Rim {
   }
 };
 
-double diameter(const Soup& soup, const std::vector<Index>& vertices) {
-  CGAL::Bbox_3 box;
-  for (const Index v : vertices) box += to_work_point(soup.points[v]).bbox();
-  return length(Vec_3{box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
-}
-
 /// Walks that come back to where they began, without vertices twice.
 std::vector<Hole> find_holes(const Soup& soup) {
   std::vector<Hole> holes;
@@ -66,7 +56,7 @@ std::vector<Hole> find_holes(const Soup& soup) {
       Hole& hole = holes.emplace_back();
       hole.rim.assign(before, walk.end());
       hole.triangle = step->triangle;
-      hole.diameter = diameter(soup, hole.rim);
+      hole.diameter = diameter(soup.points, hole.rim);
       walk.erase(before + 1, walk.end());
     }
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A PLC as triangles, and what is wrong with them one by one.
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <string>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <pgdr/domain/make_domain_3.h>
@@ -34,24 +36,24 @@ constexpr std::size_t most_to_compare = 100;
 /// Of the width of a larger polygon: how far off a plane it may be to be triangulated in that plane.
 constexpr double most_off_plane = 0.1;
 
-using Work_points = std::vector<domain_detail::Work_point>;
-
-/// Positions along the polygon of the corners of each triangle, ascending; none if there is no triangulation.
-std::vector<Corners> cgal_triangulation(const Work_points& rim) {
+/// Triangles in the order of the polygon's corners; none if there is no triangulation.
+std::vector<Corners> cgal_triangulation(const std::vector<Vec_3>& points, const std::vector<Index>& polygon) {
+  std::vector<domain_detail::Work_point> rim;
+  for (const Index v : polygon) rim.push_back(to_work_point(points[v]));
   std::vector<CGAL::Triple<int, int, int>> patch;
-  if (rim.size() <= most_to_compare) {
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch), CGAL::parameters::use_delaunay_triangulation(false));
-  } else {
-    const CGAL::Bbox_3 box = CGAL::bbox_3(rim.begin(), rim.end());
-    const double width = length(Vec_3{box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
+  const auto by = CGAL::parameters::use_delaunay_triangulation(false);
+  if (polygon.size() <= most_to_compare)
+    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch), by);
+  else
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         rim, std::back_inserter(patch),
-        CGAL::parameters::use_2d_constrained_delaunay_triangulation(true).threshold_distance(most_off_plane * width).use_delaunay_triangulation(false).do_not_use_cubic_algorithm(true));
-  }
+        by.use_2d_constrained_delaunay_triangulation(true).threshold_distance(most_off_plane * diameter(points, polygon)).do_not_use_cubic_algorithm(true));
   std::vector<Corners> result;
   for (const auto& t : patch) {
-    Corners& c = result.emplace_back(Corners{static_cast<Index>(t.first), static_cast<Index>(t.second), static_cast<Index>(t.third)});
-    std::ranges::sort(c);
+    std::array<int, 3> i{t.first, t.second, t.third};
+    std::ranges::sort(i);  // along the polygon
+    Corners& c = result.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) c[k] = polygon[static_cast<std::size_t>(i[k])];
   }
   return result;
 }
@@ -84,13 +86,15 @@ std::pair<Corners, bool> sorted_corners(Corners c) {
   return {c, is_odd};
 }
 
+double diameter(const std::vector<Vec_3>& points, const std::vector<Index>& vertices) {
+  CGAL::Bbox_3 box;
+  for (const Index v : vertices) box += to_work_point(points[v]).bbox();
+  return length(Vec_3{box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
+}
+
 std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::vector<Index>& polygon) {
   if (polygon.size() == 3) return {{polygon[0], polygon[1], polygon[2]}};
-  Work_points rim;
-  for (const Index v : polygon) rim.push_back(to_work_point(points[v]));
-  std::vector<Corners> result = cgal_triangulation(rim);
-  for (Corners& c : result)
-    for (Index& v : c) v = polygon[v];
+  std::vector<Corners> result = cgal_triangulation(points, polygon);
   if (!result.empty() || polygon.size() <= most_to_compare) return result;
   const auto [i, j] = shortest_cut(points, polygon);
   const auto begin = polygon.begin() + static_cast<std::ptrdiff_t>(i), end = polygon.begin() + static_cast<std::ptrdiff_t>(j);

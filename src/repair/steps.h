@@ -59,6 +59,9 @@ struct Triangle_edges {
 /// The same for all triangles with the same corners, and whether it takes an odd permutation to get there.
 std::pair<Corners, bool> sorted_corners(Corners c);
 
+/// Of the bounding box of some vertices: the length of its diagonal.
+double diameter(const std::vector<Vec_3>& points, const std::vector<Index>& vertices);
+
 /// As few and as small triangles over a closed polygon as can be, oriented as it runs; it need not be plane. Empty where there are none.
 std::vector<Corners> triangulated(const std::vector<Vec_3>& points, const std::vector<Index>& polygon);
 

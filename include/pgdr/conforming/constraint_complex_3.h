@@ -115,8 +115,8 @@ class Constraint_complex_3 {
   /// the facet comes out of it.
   Vec_3 on_plane(Index facet, const Vec_3& p) const { return is_bent(facet) ? planes_[facet].project_along_axis(p) : planes_[facet].project(p); }
 
-  /// Where a point next to a facet's plane that is in a subfacet goes, seen along the plane's dominant axis: onto the subfacet, where the vertices of a fused facet are off its plane. If
-  /// all points were in the plane there would be a step along its segments, as high as these are off.
+  /// Where a point next to a facet's plane that is in a subfacet, seen along the plane's dominant axis, goes: onto the subfacet, where the vertices
+  /// of a fused facet are off its plane. If all points were in the plane there would be a step along its segments, as high as these are off.
   Vec_3 on_sheet(std::uint32_t i, const Vec_3& m) const {
     const Subfacet& t = subfacets_[i];
     return is_bent(t.facet) ? planes_[t.facet].lift(on_plane(t.facet, m), position(t.vertices[0]), position(t.vertices[1]), position(t.vertices[2])) : m;
