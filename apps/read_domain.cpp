@@ -151,7 +151,6 @@ std::vector<std::filesystem::path> files_of(const std::vector<std::string>& inpu
 Input read_input(const std::vector<std::string>& files, const Domain_options& options) {
   Input input;
   Plc plc = repaired_input(files, options, input.repair);
-  input.fusing_tolerance = options.fusing_tolerance();
   const double unit = unit_of(plc);
   if (!options.nesting.empty()) plc.nesting = options.nesting == "fill" ? Nesting::fill : Nesting::alternate;
   for (const std::string& text : options.holes) {
@@ -168,7 +167,7 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
 
   const double diagonal = bounding_diagonal(plc), tolerance = simplification(files, options).in_units(diagonal);
   if (tolerance > 0 && tolerance >= diagonal) throw Usage_error("--tolerance has to be less than the bounding box's diagonal, which is " + significant(diagonal, 4));
-  input.plc = simplify_as_far_as_valid(plc, tolerance, input.fusing_tolerance, options.accepts_bent_polygons(), &input.simplified);
+  input.plc = simplify_as_far_as_valid(plc, tolerance, options.fusing_tolerance(), options.accepts_bent_polygons(), &input.simplified);
   if (!options.tolerance.empty() && input.simplified.used < tolerance && !input.simplified.is_none())
     print_message("warning: --tolerance: with " + significant(tolerance, 3) + " elements would be no larger, or angles smaller, so that " + significant(input.simplified.used, 3) + " is used");
   mark_and_name(input.plc, options);
@@ -178,7 +177,7 @@ Input read_input(const std::vector<std::string>& files, const Domain_options& op
 
 Understood understand(Input& input, const Domain_options& options, std::size_t max_pairs) {
   if (std::optional known = std::exchange(input.simplified.understood, std::nullopt)) return std::move(*known);
-  return pgdr::understand(input.plc, input.fusing_tolerance, options.accepts_bent_polygons(), max_pairs);
+  return pgdr::understand(input.plc, options.fusing_tolerance(), options.accepts_bent_polygons(), max_pairs);
 }
 
 void add_problems_option(CLI::App& parser, std::string& path) {

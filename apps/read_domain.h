@@ -57,7 +57,6 @@ struct Domain_options {
 /// An input as it is meshed.
 struct Input {
   Plc plc;  ///< with the seeds of the options
-  double fusing_tolerance = 0;  ///< that of the options, or less where facets that are valid would intersect once they are fused
   Repair_report repair;
   Simplification_within simplified;
 };

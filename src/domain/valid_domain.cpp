@@ -2,9 +2,11 @@
 #include <pgdr/domain/valid_domain.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
+#include <pgdr/domain/bend.h>
 #include <pgdr/domain/make_domain_3.h>
 #include <pgdr/domain/validate_domain_3.h>
 
@@ -26,6 +28,30 @@ Domain_3<Default_kernel> valid_domain(const Plc& plc, double coplanar_tolerance,
   Understood understood = understand(plc, coplanar_tolerance, triangulate);
   understood.require_valid();
   return std::move(understood.domain);
+}
+
+std::optional<Plc> fused_where_valid(Plc plc, double coplanar_tolerance, bool triangulate) {
+  constexpr auto all = std::numeric_limits<std::size_t>::max();
+  constexpr Index none = std::numeric_limits<Index>::max();
+  try {
+    while (true) {
+      const Understood understood = understand(plc, coplanar_tolerance, triangulate, all);
+      if (understood.is_valid()) return plc;
+      const auto& facets = understood.domain.facets;
+      std::vector<Index> bent(plc.facets.size(), none);  // of the input facet that a problem names, the one fused of it and others
+      for (Index f = 0; f < facets.size(); ++f)
+        if (facets[f].input_facets.size() > 1 && bend(understood.domain, f) > 0) bent[facets[f].input_facets[0]] = f;
+      for (const Input_problem& problem : understood.problems) {
+        if (problem.is_warning()) continue;
+        if (std::ranges::all_of(problem.facets, [&](Index i) { return bent[i] == none; })) return std::nullopt;
+        for (const Index i : problem.facets)
+          if (bent[i] != none)
+            for (const Index fused : facets[bent[i]].input_facets) plc.facets[fused].group = fused_with_none;
+      }
+    }
+  } catch (const Input_error&) {  // not even understood
+    return std::nullopt;
+  }
 }
 
 }  // namespace pgdr

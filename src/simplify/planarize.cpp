@@ -29,16 +29,21 @@ constexpr double lowest = 1.0 / 64;
 /// How often facets that would intersect others are given up.
 constexpr int most_rounds = 8;
 
+/// Sets a facet's group, unless it is to be fused with none.
+void set_group(Plc_facet<Default_kernel>& facet, Index group) {
+  if (facet.group != fused_with_none) facet.group = group;
+}
+
 /// `plc` with its facets grouped as they are fused in `domain`, which was made from it: where vertices move, others might be fused the next time.
 Plc grouped(Plc plc, const Domain& domain) {
   for (std::size_t f = 0; f < domain.facets.size(); ++f)
-    for (const Index i : domain.facets[f].input_facets) plc.facets[i].group = static_cast<Index>(f + 1);
+    for (const Index i : domain.facets[f].input_facets) set_group(plc.facets[i], static_cast<Index>(f + 1));
   return plc;
 }
 
 /// With facets to be fused with whatever lies in their planes.
 Plc ungrouped(Plc plc) {
-  for (auto& facet : plc.facets) facet.group = 0;
+  for (auto& facet : plc.facets) set_group(facet, 0);
   return plc;
 }
 

@@ -155,21 +155,15 @@ Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance,
   }
 }
 
-Plc simplify_as_far_as_valid(const Plc& plc, double tolerance, double& coplanar_tolerance, bool triangulate, Simplification_within* done) {
-  constexpr double narrower = 0.1, narrowest = 1e-9;
+Plc simplify_as_far_as_valid(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate, Simplification_within* done) {
   Simplification_within ignored;
   Simplification_within& report = done ? *done : ignored;
   Plc result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);
-  const auto is_valid = [&] {  // what was made plane is known to be
-    if (report.planarization.is_none() && !report.understood) report.understood = valid(result, coplanar_tolerance, triangulate);
-    return !report.planarization.is_none() || report.understood;
-  };
-  if (!(coplanar_tolerance > 0) || is_valid() || !valid(plc, 0, triangulate)) return result;
-  do {
-    coplanar_tolerance = coplanar_tolerance > narrowest ? narrower * coplanar_tolerance : 0;
-    result = simplify_within(plc, tolerance, coplanar_tolerance, triangulate, &report);
-  } while (coplanar_tolerance > 0 && !is_valid());
-  return result;
+  if (!report.planarization.is_none()) return result;  // known to be valid
+  if (!report.understood) report.understood = valid(result, coplanar_tolerance, triangulate);
+  if (report.understood || !(coplanar_tolerance > 0)) return result;
+  const std::optional<Plc> fused = fused_where_valid(plc, coplanar_tolerance, triangulate);
+  return fused ? simplify_within(*fused, tolerance, coplanar_tolerance, triangulate, &report) : result;
 }
 
 }  // namespace pgdr

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
@@ -32,6 +33,21 @@ inline void add_box(Plc& plc, std::array<double, 3> lower, std::array<double, 3>
 inline Plc box(std::array<double, 3> lower = {0, 0, 0}, std::array<double, 3> upper = {1, 1, 1}) {
   Plc plc;
   add_box(plc, lower, upper);
+  return plc;
+}
+
+/// Two prisms whose lids are valleys along their longer diagonals, 5e-7 deep: fused, they are divided along the shorter one, and are ridges. Above the first valley stands a box.
+inline Plc box_above_valley(double gap) {
+  constexpr double depth = 5e-7;
+  Plc plc;
+  for (const double shift : {0.0, 4.0}) {
+    const Index o = static_cast<Index>(plc.vertices.size());
+    for (const double lid : {0.0, 1.0})
+      for (const auto& [x, y] : {std::pair{-1.0, 0.0}, {0.0, -0.5}, {1.0, 0.0}, {0.0, 0.5}}) plc.vertices.emplace_back(shift + x, y, lid * (y == 0 ? 1 - depth : 1.0));
+    for (const auto& t : {std::array<Index, 3>{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}}) plc.facets.push_back({{{o + t[0], o + t[1], o + t[2]}}, {}, 0});
+    for (Index a = 0; a < 4; ++a) plc.facets.push_back({{{o + a, o + (a + 1) % 4, o + (a + 1) % 4 + 4, o + a + 4}}, {}, 0});
+  }
+  add_box(plc, {-0.02, -0.02, 1 - depth + gap}, {0.02, 0.02, 1.5});
   return plc;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace pgdr {
 
 /// Index of a vertex, segment, facet or polygon; 0-based everywhere inside the library.
 using Index = std::uint32_t;
+
+/// The group of facets that are fused with none.
+inline constexpr Index fused_with_none = std::numeric_limits<Index>::max();
 
 /// How enclosed volumes without a hole seed become material (see `Piecewise_linear_complex_3::nesting`).
 enum class Nesting {
@@ -29,7 +33,7 @@ struct Plc_facet {
   std::vector<typename K::Point_3> holes;
   /// Kept as the reference of every boundary triangle made from this facet.
   int marker = 0;
-  /// Fused only with neighbors of the same group: what `planarize` has made plane together.
+  /// Fused only with neighbors of the same group: what `planarize` has made plane together, or `fused_with_none`.
   Index group = 0;
 };
 

@@ -3,6 +3,7 @@
 #define PGDR_DOMAIN_VALID_DOMAIN_H
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <pgdr/domain/default_kernel.h>
@@ -30,6 +31,11 @@ Understood understand(const Plc& plc, double coplanar_tolerance, bool triangulat
 
 /// What `understand` understands. Throws `Input_error` with all that is wrong, unless these are only warnings.
 Domain_3<Default_kernel> valid_domain(const Plc& plc, double coplanar_tolerance, bool triangulate = false);
+
+/// `plc` with such facets alone (`fused_with_none`) as would intersect others once they are fused: sheets may be closer to each other than
+/// triangles are bent that become one facet.
+/// \return none if it is not valid unfused either
+std::optional<Plc> fused_where_valid(Plc plc, double coplanar_tolerance, bool triangulate = false);
 
 }  // namespace pgdr
 

@@ -41,10 +41,9 @@ struct Simplification_within {
 /// \return a PLC whose facets `make_domain_3` fuses again
 Plc simplify_within(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate = false, Simplification_within* done = nullptr);
 
-/// `simplify_within`, and how widely the result may be fused: two sheets may be closer to each other than triangles are bent that become one facet,
-/// so that a surface that is valid is not any more. Then `coplanar_tolerance` becomes a tenth of it, and so on down to 1e-9, and at last 0.
-/// A PLC that is not valid even then is simplified as if it were.
-Plc simplify_as_far_as_valid(const Plc& plc, double tolerance, double& coplanar_tolerance, bool triangulate = false, Simplification_within* done = nullptr);
+/// `simplify_within`, with facets alone where fusing makes a PLC invalid that is valid without (`fused_where_valid`). One that is not valid
+/// then either is simplified as if it were.
+Plc simplify_as_far_as_valid(const Plc& plc, double tolerance, double coplanar_tolerance, bool triangulate = false, Simplification_within* done = nullptr);
 
 }  // namespace pgdr
 

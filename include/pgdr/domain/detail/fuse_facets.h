@@ -129,7 +129,7 @@ class Facet_fuser {
       const Edge_use& a = uses_[e.first_use];
       const Edge_use& b = uses_[e.first_use + 1];
       const Facet_piece &p = pieces_[a.piece], &q = pieces_[b.piece];
-      e.fusable = !a.internal && !b.internal && p.marker == q.marker && p.group == q.group;
+      e.fusable = !a.internal && !b.internal && p.marker == q.marker && p.group == q.group && p.group != fused_with_none;
     }
   }
 
