@@ -2,6 +2,7 @@
 #include <pgdr/repair/repair.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include <pgdr/domain/free_numbers.h>
 #include <pgdr/domain/scale.h>
+#include <pgdr/repair/degenerate_facets.h>
 
 #include "steps.h"
 
@@ -38,6 +40,28 @@ std::vector<Input_problem> open_groups(const Soup& soup, const std::vector<Index
     problems.push_back({Input_problem::Kind::open_surface,
                         "the rim of " + std::to_string(hole.rim.size()) + " edges through (" + text(unit * at.x) + ", " + text(unit * at.y) + ", " +
                             text(unit * at.z) + ") is " + text(unit * hole.diameter) + " wide, and holes are filled up to " + text(options.largest_hole),
+                        {t.facet}});
+  }
+  return problems;
+}
+
+/// Groups without holes that enclose something, most of which has one volume on both sides all the same: it leaks where edges belong to three triangles or more.
+std::vector<Input_problem> leaking_groups(const Soup& soup, const std::vector<Index>& group, const Solids& solids, const std::vector<Hole>& holes, double tolerance, double unit) {
+  std::vector<double> volume(solids.hanging.size(), 0), surface = volume;
+  std::vector<Index> first(volume.size());  // triangle
+  for (Index t = static_cast<Index>(group.size()); t-- > 0;) {
+    volume[group[t]] += signed_volume(soup, soup.triangles[t], soup.points[0]);
+    surface[group[t]] += area(soup, soup.triangles[t]);
+    first[group[t]] = t;
+  }
+  std::vector<Input_problem> problems;
+  for (std::size_t g = 0; g < volume.size(); ++g) {
+    if (solids.hanging[g] <= 0.5 || std::abs(volume[g]) <= tolerance * surface[g]) continue;
+    if (std::ranges::any_of(holes, [&](const Hole& hole) { return group[hole.triangle] == g; })) continue;
+    const Triangle& t = soup.triangles[first[g]];
+    const Vec_3& at = soup.points[t.corners[0]];
+    problems.push_back({Input_problem::Kind::open_surface,
+                        "the surface through (" + text(unit * at.x) + ", " + text(unit * at.y) + ", " + text(unit * at.z) + ") has no hole, but leaks where edges belong to three triangles or more",
                         {t.facet}});
   }
   return problems;
@@ -73,7 +97,11 @@ void close_all_wedges(Solids& result, double tolerance, F enclosed, Repair_repor
 
 Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_report& report) {
   Soup soup;
-  for (std::size_t part = 0; part < parts.size(); ++part) add_to_soup(soup, parts[part], static_cast<Index>(part), report);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    Plc part = parts[p];
+    report.degenerate_triangles += take_degenerate_facets_away(part);  // what they closed would be open without
+    add_to_soup(soup, part, static_cast<Index>(p), report);
+  }
   const double unit = unit_of(parts[0]);
   const double tolerance = options.tolerance / unit;
   remove_degenerate(soup, report);
@@ -98,6 +126,7 @@ Plc repaired(std::span<const Plc> parts, const Repair_options& options, Repair_r
     };
     close_all_wedges(result, tolerance, enclosed, report);
     if (auto problems = open_groups(soup, group, result.kept, holes, options, unit); !problems.empty()) throw Input_error(std::move(problems));
+    if (auto problems = leaking_groups(soup, group, result, holes, tolerance, unit); !problems.empty()) throw Input_error(std::move(problems));
     plc = std::move(result.plc);
   }
   require_some(plc.facets);

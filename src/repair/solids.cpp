@@ -70,15 +70,15 @@ std::vector<double> thicknesses(const Soup& arranged, const Domain_3<Default_ker
   return result;
 }
 
-/// How much of each group's area is left.
-std::vector<double> kept_shares(const Soup& kept, const Soup& soup, const std::vector<Index>& group) {
+/// How much of each group's area is among some pieces of it.
+std::vector<double> area_shares(const Soup& pieces, const Soup& soup, const std::vector<Index>& group) {
   std::map<std::pair<Index, Index>, Index> group_of;  // of a part's facet
   std::vector<double> before(group.empty() ? 0 : *std::ranges::max_element(group) + 1, 0), after = before;
   for (Index t = 0; t < group.size(); ++t) {
     group_of[{soup.triangles[t].part, soup.triangles[t].facet}] = group[t];
     before[group[t]] += area(soup, soup.triangles[t]);
   }
-  for (const Triangle& t : kept.triangles) after[group_of[{t.part, t.facet}]] += area(kept, t);
+  for (const Triangle& t : pieces.triangles) after[group_of[{t.part, t.facet}]] += area(pieces, t);
   for (std::size_t g = 0; g < before.size(); ++g) after[g] /= before[g];
   return after;
 }
@@ -126,7 +126,7 @@ Plc as_plc(const Soup& soup) {
 }
 
 Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report) {
-  if (arranged.triangles.empty()) return {arranged, {}, kept_shares(arranged, soup, group)};
+  if (arranged.triangles.empty()) return {arranged, {}, area_shares(arranged, soup, group), area_shares(arranged, soup, group)};
   const std::vector<Body> all = bodies(soup, group);
   const auto owner_at = [&](const Vec_3& p) {
     std::vector<std::size_t> layers(parts, 0);
@@ -161,11 +161,14 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
   }
 
   std::vector<Kept> boundary;
+  Soup hanging{arranged.points, {}};
   for (Index f = 0; f < domain.facets.size(); ++f) {
-    const auto front = owner[volumes.beside(f, 0, true)], back = owner[volumes.beside(f, 0, false)];
+    const std::size_t before = volumes.beside(f, 0, true), behind = volumes.beside(f, 0, false);
+    const auto front = owner[before], back = owner[behind];
     for (const Index t : domain.facets[f].input_facets) {
       if (front == back) {
         ++report.inner_triangles;
+        if (before == behind) hanging.triangles.push_back(arranged.triangles[t]);
         continue;
       }
       Kept& k = boundary.emplace_back(Kept{arranged.triangles[t], *front, *back});
@@ -179,7 +182,7 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
   std::ranges::sort(boundary, {}, [](const Kept& k) { return std::pair{k.triangle.part, k.triangle.facet}; });
   Soup kept{arranged.points, {}};
   for (const Kept& k : boundary) kept.triangles.push_back(k.triangle);
-  Solids result{kept, as_plc(kept), kept_shares(kept, soup, group)};
+  Solids result{kept, as_plc(kept), area_shares(kept, soup, group), area_shares(hanging, soup, group)};
   if (parts > 1) add_seeds(result.plc, boundary);
   return result;
 }

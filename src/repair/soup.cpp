@@ -130,6 +130,7 @@ void add_to_soup(Soup& soup, const Plc& plc, Index part, Repair_report& report) 
   soup.points.insert(soup.points.end(), points.begin(), points.end());
   for (Index f = 0; f < plc.facets.size(); ++f) {
     const auto& facet = plc.facets[f];
+    if (facet.polygons.empty()) continue;
     if (facet.polygons.size() != 1 || !facet.holes.empty())
       throw Input_error({{Input_problem::Kind::unreadable,
                           "facet " + std::to_string(f + plc.first_index) + " has holes or several polygons: it cannot be repaired", {f}}});

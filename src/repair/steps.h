@@ -124,6 +124,7 @@ struct Solids {
   Soup surface;
   Plc plc;              ///< the same, and the regions
   std::vector<double> kept;  ///< which part of each group's area is in it
+  std::vector<double> hanging;  ///< and which has one volume on both sides
 };
 Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report);
 

@@ -283,6 +283,59 @@ TEST_CASE("triangles that enclose nothing once they are repaired are refused") {
   for (const Plc& plc : {crossing, flat}) CHECK_THROWS_WITH(repair(plc, {tolerance, 1}), "the triangles enclose nothing");
 }
 
+TEST_CASE("a surface that leaks at edges of three triangles is refused, not left out") {
+  // A triangle is missing, and no edge of it belongs to one triangle only.
+  Plc plc = as_surface(triangulated(box()));
+  const std::vector<Index> missing = plc.facets[0].polygons[0];
+  plc.facets.erase(plc.facets.begin());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index a = missing[i], b = missing[(i + 1) % 3];
+    const auto middle = CGAL::midpoint(plc.vertices[a], plc.vertices[b]);
+    const auto apex = static_cast<Index>(plc.vertices.size());
+    for (const double depth : {-0.1, -0.2}) plc.vertices.emplace_back(middle.x() + 0.01 * depth, middle.y() + 0.02 * depth * depth, depth);
+    plc.facets.push_back({{{a, b, apex}}, {}, 0});
+    plc.facets.push_back({{{b, a, apex + 1}}, {}, 0});
+  }
+  add_box(plc, {3, 3, 3}, {4, 4, 4});
+  try {
+    repair(plc, {tolerance, 2});
+    FAIL("lost a box");
+  } catch (const Input_error& e) {
+    CHECK(std::string(e.what()).find("leaks where edges belong to three triangles") != std::string::npos);
+  }
+}
+
+TEST_CASE("what is closed by triangles without area stays closed, however close their vertices are") {
+  Plc plc = as_surface(triangulated(box()));
+  const auto with_edge = std::ranges::find_if(plc.facets, [](const auto& f) { return std::ranges::count(f.polygons[0], 0U) + std::ranges::count(f.polygons[0], 1U) == 2; });
+  REQUIRE(with_edge != plc.facets.end());
+  // Of the edge from 0 to 1, one side's triangle gets three vertices on it, and triangles without area are between.
+  const std::vector<Index> whole = with_edge->polygons[0];
+  const Index opposite = *std::ranges::find_if(whole, [](Index v) { return v > 1; });
+  const bool runs_forward = whole[(static_cast<std::size_t>(std::ranges::find(whole, 0U) - whole.begin()) + 1) % 3] == 1;
+  plc.facets.erase(with_edge);
+  Index before = 0;
+  for (const double x : {1e-4, 1.5e-4, 0.5, 1.0}) {
+    const Index v = x == 1 ? 1 : static_cast<Index>(plc.vertices.size());
+    if (v != 1) plc.vertices.emplace_back(x, 0.0, 0.0);
+    for (std::vector<Index> t : {std::vector<Index>{before, v, opposite}, {before, 1, v}}) {
+      if (t[1] == t[2]) continue;
+      if (!runs_forward) std::swap(t[0], t[1]);
+      plc.facets.push_back({{t}, {}, 0});
+    }
+    before = v;
+  }
+  add_box(plc, {0.5, 0.5, 0.5}, {2, 2, 2});
+  for (const double wide : {0.0, 1e-6, 1.2e-4, 1e-3, 1e-2}) {
+    INFO("tolerance " << wide);
+    Repair_report report;
+    const Plc result = repair(plc, {wide, 0.0}, &report);
+    CHECK(std::abs(volume(result) - (1 + 3.375 - 0.125)) <= 1e-9);
+    CHECK(report.closed_cracks == 0);
+    CHECK(report.degenerate_triangles == 3);
+  }
+}
+
 TEST_CASE("three boxes that share sides with different triangles are an assembly of three regions") {
   const Plc left = as_surface(triangulated(box({0, 0, 0}, {1, 1, 1})));
   Plc middle = as_surface(triangulated(box({1, 0, 0}, {2, 1, 1})));
