@@ -29,6 +29,8 @@ std::string text(double x) {
   return buffer;
 }
 
+std::string place(const Vec_3& at, double unit) { return std::string("(") + text(unit * at.x) + ", " + text(unit * at.y) + ", " + text(unit * at.z) + ")"; }
+
 /// Holes that are wider than may be filled, of groups most of which bounds nothing. Where most of it does, what hangs on it was spare.
 std::vector<Input_problem> open_groups(const Soup& soup, const std::vector<Index>& group, const std::vector<double>& kept,
                                        const std::vector<Hole>& holes, const Repair_options& options, double unit) {
@@ -36,10 +38,9 @@ std::vector<Input_problem> open_groups(const Soup& soup, const std::vector<Index
   for (const Hole& hole : holes) {
     if (kept[group[hole.triangle]] > 0.5) continue;
     const Triangle& t = soup.triangles[hole.triangle];
-    const Vec_3& at = soup.points[hole.rim.front()];
     problems.push_back({Input_problem::Kind::open_surface,
-                        "the rim of " + std::to_string(hole.rim.size()) + " edges through (" + text(unit * at.x) + ", " + text(unit * at.y) + ", " +
-                            text(unit * at.z) + ") is " + text(unit * hole.diameter) + " wide, and holes are filled up to " + text(options.largest_hole),
+                        "the rim of " + std::to_string(hole.rim.size()) + " edges through " + place(soup.points[hole.rim.front()], unit) + " is " +
+                            text(unit * hole.diameter) + " wide, and holes are filled up to " + text(options.largest_hole),
                         {t.facet}});
   }
   return problems;
@@ -59,9 +60,8 @@ std::vector<Input_problem> leaking_groups(const Soup& soup, const std::vector<In
     if (solids.hanging[g] <= 0.5 || std::abs(volume[g]) <= tolerance * surface[g]) continue;
     if (std::ranges::any_of(holes, [&](const Hole& hole) { return group[hole.triangle] == g; })) continue;
     const Triangle& t = soup.triangles[first[g]];
-    const Vec_3& at = soup.points[t.corners[0]];
     problems.push_back({Input_problem::Kind::open_surface,
-                        "the surface through (" + text(unit * at.x) + ", " + text(unit * at.y) + ", " + text(unit * at.z) + ") has no hole, but leaks where edges belong to three triangles or more",
+                        "the surface through " + place(soup.points[t.corners[0]], unit) + " has no hole, but leaks where edges belong to three triangles or more",
                         {t.facet}});
   }
   return problems;

@@ -48,7 +48,7 @@ std::vector<Body> bodies(const Soup& soup, const std::vector<Index>& group) {
 
 /// With no two of them fused: sheets that part by no more than rounding would be taken for one plane, and what is between them for a part of it.
 Domain_3<Default_kernel> domain_of_triangles(Plc plc) {
-  for (Index f = 0; f < plc.facets.size(); ++f) plc.facets[f].group = f;
+  for (auto& facet : plc.facets) facet.group = fused_with_none;
   return make_domain_3(plc, 0.0, true);
 }
 
@@ -70,18 +70,28 @@ std::vector<double> thicknesses(const Soup& arranged, const Domain_3<Default_ker
   return result;
 }
 
-/// How much of each group's area is among some pieces of it.
-std::vector<double> area_shares(const Soup& pieces, const Soup& soup, const std::vector<Index>& group) {
-  std::map<std::pair<Index, Index>, Index> group_of;  // of a part's facet
-  std::vector<double> before(group.empty() ? 0 : *std::ranges::max_element(group) + 1, 0), after = before;
-  for (Index t = 0; t < group.size(); ++t) {
-    group_of[{soup.triangles[t].part, soup.triangles[t].facet}] = group[t];
-    before[group[t]] += area(soup, soup.triangles[t]);
+/// Of groups of triangles, how large they are.
+class Group_areas {
+ public:
+  Group_areas(const Soup& soup, const std::vector<Index>& group) : all_(group.empty() ? 0 : *std::ranges::max_element(group) + 1, 0) {
+    for (Index t = 0; t < group.size(); ++t) {
+      group_of_[{soup.triangles[t].part, soup.triangles[t].facet}] = group[t];
+      all_[group[t]] += area(soup, soup.triangles[t]);
+    }
   }
-  for (const Triangle& t : pieces.triangles) after[group_of[{t.part, t.facet}]] += area(pieces, t);
-  for (std::size_t g = 0; g < before.size(); ++g) after[g] /= before[g];
-  return after;
-}
+
+  /// How much of each group's area some pieces of it have, whose corners are points of `arranged`.
+  std::vector<double> shares(const Soup& arranged, const std::vector<Triangle>& pieces) const {
+    std::vector<double> result(all_.size(), 0);
+    for (const Triangle& t : pieces) result[group_of_.at({t.part, t.facet})] += area(arranged, t);
+    for (std::size_t g = 0; g < all_.size(); ++g) result[g] /= all_[g];
+    return result;
+  }
+
+ private:
+  std::map<std::pair<Index, Index>, Index> group_of_;  ///< of a part's facet
+  std::vector<double> all_;
+};
 
 /// For voids that are enclosed, and for whose each volume is. \param plc the triangles of `boundary`
 void add_seeds(Plc& plc, const std::vector<Kept>& boundary) {
@@ -126,7 +136,8 @@ Plc as_plc(const Soup& soup) {
 }
 
 Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& group, std::size_t parts, double tolerance, Repair_report& report) {
-  if (arranged.triangles.empty()) return {arranged, {}, area_shares(arranged, soup, group), area_shares(arranged, soup, group)};
+  const Group_areas areas(soup, group);
+  if (arranged.triangles.empty()) return {arranged, {}, areas.shares(arranged, {}), areas.shares(arranged, {})};
   const std::vector<Body> all = bodies(soup, group);
   const auto owner_at = [&](const Vec_3& p) {
     std::vector<std::size_t> layers(parts, 0);
@@ -161,14 +172,14 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
   }
 
   std::vector<Kept> boundary;
-  Soup hanging{arranged.points, {}};
+  std::vector<Triangle> hanging;
   for (Index f = 0; f < domain.facets.size(); ++f) {
     const std::size_t before = volumes.beside(f, 0, true), behind = volumes.beside(f, 0, false);
     const auto front = owner[before], back = owner[behind];
     for (const Index t : domain.facets[f].input_facets) {
       if (front == back) {
         ++report.inner_triangles;
-        if (before == behind) hanging.triangles.push_back(arranged.triangles[t]);
+        if (before == behind) hanging.push_back(arranged.triangles[t]);
         continue;
       }
       Kept& k = boundary.emplace_back(Kept{arranged.triangles[t], *front, *back});
@@ -182,7 +193,7 @@ Solids solids(const Soup& arranged, const Soup& soup, const std::vector<Index>& 
   std::ranges::sort(boundary, {}, [](const Kept& k) { return std::pair{k.triangle.part, k.triangle.facet}; });
   Soup kept{arranged.points, {}};
   for (const Kept& k : boundary) kept.triangles.push_back(k.triangle);
-  Solids result{kept, as_plc(kept), area_shares(kept, soup, group), area_shares(hanging, soup, group)};
+  Solids result{kept, as_plc(kept), areas.shares(arranged, kept.triangles), areas.shares(arranged, hanging)};
   if (parts > 1) add_seeds(result.plc, boundary);
   return result;
 }

@@ -64,7 +64,7 @@ std::vector<Plc_facet<Default_kernel>> as_triangles(const Plc& plc, const std::v
   Plc alone;
   alone.vertices = plc.vertices;
   alone.facets = facets;
-  for (std::size_t i = 0; i < facets.size(); ++i) alone.facets[i].group = static_cast<Index>(i + 1);
+  for (auto& facet : alone.facets) facet.group = fused_with_none;
   const Domain domain = make_domain_3(alone, coplanar_tolerance, false);
   std::vector<Plc_facet<Default_kernel>> result;
   for (const auto& facet : domain.facets) {
